@@ -1,0 +1,123 @@
+#include "libdem/core/units.h"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "libdem/core/error.h"
+
+namespace dem {
+namespace {
+
+struct Kind {
+  std::string_view unit, example, name;
+};
+
+Kind kind(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::length: return {"m", "98.6 mm", "length"};
+    case Quantity::velocity: return {"m/s", "40 m/s", "velocity"};
+    case Quantity::time: return {"s", "20 ms", "time"};
+    case Quantity::mass: return {"kg", "67.5 kg", "mass"};
+    case Quantity::density: return {"kg/m3", "2400 kg/m3", "density"};
+    case Quantity::force: return {"N", "12 kN", "force"};
+    case Quantity::stress: return {"Pa", "24 GPa", "stress"};
+    case Quantity::fracture_energy: return {"N/m", "146.5 N/m", "fracture energy"};
+    case Quantity::angle: return {"rad", "6 degree", "angle"};
+    case Quantity::ratio: return {"1", "0.2", "number without dimension"};
+  }
+  return {"1", "1", "number"};
+}
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+
+struct System {
+  ut_system* system;
+  std::mutex mutex;  // UDUNITS-2 keeps its status and its parser in globals
+  System() {
+    ut_set_error_message_handler(ut_ignore);
+    system = ut_read_xml(nullptr);
+    if (system == nullptr) throw RunError("the unit database of UDUNITS-2 cannot be read; install libudunits2-data");
+    Unit thousandth(ut_scale(1e-3, ut_get_dimensionless_unit_one(system)));
+    for (const char* name : {"permil", "permille", "promille"}) ut_map_name_to_unit(name, UT_ASCII, thousandth.get());
+  }
+};
+
+System& units() {
+  static System instance;
+  return instance;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+/// Takes the leading number off `text`.
+double take_number(std::string_view& text, std::string_view whole, Quantity quantity, const std::string& where) {
+  text = trim(text);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value))
+    throw InputError(where, fmt::format("\"{}\" does not start with a finite number", whole),
+                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+}  // namespace
+
+std::string_view si_unit(Quantity quantity) { return quantity == Quantity::ratio ? "-" : kind(quantity).unit; }
+std::string_view example(Quantity quantity) { return kind(quantity).example; }
+
+double unit_factor(std::string_view unit, Quantity quantity, const std::string& where) {
+  unit = trim(unit);
+  const Kind wanted = kind(quantity);
+  if (quantity == Quantity::ratio && (unit.empty() || unit == "-" || unit == "1")) return 1;
+  if (unit.empty())
+    throw InputError(where, "the unit is missing", fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+  System& known = units();
+  const std::scoped_lock lock(known.mutex);
+  const Unit from(ut_parse(known.system, std::string(unit).c_str(), UT_UTF8));
+  const Unit to(ut_parse(known.system, std::string(wanted.unit).c_str(), UT_UTF8));
+  if (!from)
+    throw InputError(where, fmt::format("\"{}\" is no unit that is known", unit),
+                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+  // An angle is a pure number to UDUNITS-2; "6 rad" for a ratio is a mistake all the same.
+  if (!ut_are_convertible(from.get(), to.get()))
+    throw InputError(where, fmt::format("\"{}\" is not a unit of {}", unit, wanted.name),
+                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+  const std::unique_ptr<cv_converter, void (*)(cv_converter*)> convert(ut_get_converter(from.get(), to.get()), cv_free);
+  return cv_convert_double(convert.get(), 1.0) - cv_convert_double(convert.get(), 0.0);
+}
+
+double parse_quantity(std::string_view text, Quantity quantity, const std::string& where) {
+  std::string_view rest = text;
+  const double value = take_number(rest, text, quantity, where);
+  return value * unit_factor(rest, quantity, where);
+}
+
+std::vector<double> parse_quantities(std::string_view text, Quantity quantity, const std::string& where) {
+  std::vector<double> values;
+  std::string_view rest = text;
+  for (;;) {
+    values.push_back(take_number(rest, text, quantity, where));
+    rest = trim(rest);
+    if (rest.empty() || (rest.front() != 'x' && rest.front() != ',')) break;
+    rest.remove_prefix(1);
+  }
+  const double factor = unit_factor(rest, quantity, where);
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+}  // namespace dem
