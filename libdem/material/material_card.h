@@ -25,8 +25,8 @@ struct MaterialCard {
   double tensile_strength = 3.1e6;  ///< T [Pa], of a link, local
   double cohesion = 3.6e6;          ///< Co [Pa], of a link, local
   double softening = 5;             ///< zeta [-]: the softening slope is -Kn/zeta
-  double internal_friction = 0.10471975511965977;  ///< phi_i [rad], of an intact link (6 degrees in the paper)
-  double contact_friction = 0.10471975511965977;   ///< phi_c [rad], of a broken link or a new contact
+  double internal_friction = 0.10471975511965978;  ///< phi_i [rad], of an intact link (6 degrees in the paper)
+  double contact_friction = 0.10471975511965978;   ///< phi_c [rad], of a broken link or a new contact
   double alpha = 3.7;    ///< Eq. 1, Eq. 3 [-]
   double beta = 2.198;   ///< Eq. 1, Eq. 3 [-]
   double gamma = 3.79;   ///< Eq. 1, Eq. 3 [-]
