@@ -143,6 +143,13 @@ std::string line(const std::string& key, const std::string& value, const char* c
 
 }  // namespace
 
+std::vector<CardNumber> numbers_of(const MaterialCard& card) {
+  std::vector<CardNumber> numbers;
+  for (const Field& field : fields)
+    numbers.push_back({field.key, card.*field.value, field.kind, field.comment});
+  return numbers;
+}
+
 std::string_view name_of(SofteningUnloading choice) { return unloadings[static_cast<std::size_t>(choice)]; }
 std::string_view name_of(CohesionDuringSoftening choice) { return cohesions[static_cast<std::size_t>(choice)]; }
 std::string_view name_of(BrokenLinkContact choice) { return contacts[static_cast<std::size_t>(choice)]; }

@@ -1,5 +1,5 @@
-// The material card: everything that a discrete-element concrete needs to know about itself. Calibration writes it,
-// virtual tests and impacts read it unchanged.
+// The material card: everything that a discrete-element concrete needs to know about itself. Calibration writes
+// it, virtual tests and impacts read it unchanged.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -7,11 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "libdem/core/units.h"
+
 namespace dem {
 
 /// How a link unloads from the softening branch: towards the origin, or parallel to the elastic loading.
 enum class SofteningUnloading { secant, elastic };
-/// Whether the link's cohesion (Co) stays whole until the link breaks, or shrinks with its remaining tensile strength.
+/// Whether the link's cohesion (Co) stays whole until the link breaks, or shrinks with its remaining tensile
+/// strength.
 enum class CohesionDuringSoftening { constant, proportional };
 /// The distance below which the two elements of a broken link push on each other: D_init, or Ra + Rb.
 enum class BrokenLinkContact { initial_distance, radii };
@@ -19,24 +22,26 @@ enum class BrokenLinkContact { initial_distance, radii };
 /// Parameters of the paper's model. SI units; angles in radians; compression positive.
 struct MaterialCard {
   std::string name = "unnamed";
-  double young_modulus = 30e9;      ///< E [Pa], macroscopic
-  double poisson_ratio = 0.2;       ///< nu [-], macroscopic, must stay below 1/alpha
-  double density = 2400;            ///< mass per volume of the concrete [kg/m3]
-  double tensile_strength = 3.1e6;  ///< T [Pa], of a link, local
-  double cohesion = 3.6e6;          ///< Co [Pa], of a link, local
-  double softening = 5;             ///< zeta [-]: the softening slope is -Kn/zeta
+  double young_modulus = 30e9;                     ///< E [Pa], macroscopic
+  double poisson_ratio = 0.2;                      ///< nu [-], macroscopic, must stay below 1/alpha
+  double density = 2400;                           ///< mass per volume of the concrete [kg/m3]
+  double tensile_strength = 3.1e6;                 ///< T [Pa], of a link, local
+  double cohesion = 3.6e6;                         ///< Co [Pa], of a link, local
+  double softening = 5;                            ///< zeta [-]: the softening slope is -Kn/zeta
   double internal_friction = 0.10471975511965978;  ///< phi_i [rad], of an intact link (6 degrees in the paper)
   double contact_friction = 0.10471975511965978;   ///< phi_c [rad], of a broken link or a new contact
-  double alpha = 3.7;    ///< Eq. 1, Eq. 3 [-]
-  double beta = 2.198;   ///< Eq. 1, Eq. 3 [-]
-  double gamma = 3.79;   ///< Eq. 1, Eq. 3 [-]
+  double alpha = 3.7;                              ///< Eq. 1, Eq. 3 [-]
+  double beta = 2.198;                             ///< Eq. 1, Eq. 3 [-]
+  double gamma = 3.79;                             ///< Eq. 1, Eq. 3 [-]
   SofteningUnloading unloading = SofteningUnloading::secant;
   CohesionDuringSoftening cohesion_during_softening = CohesionDuringSoftening::constant;
   BrokenLinkContact broken_link_contact = BrokenLinkContact::initial_distance;
-  /// Where the card comes from and how well it fits: free text by key, kept in order, carried through unchanged.
+  /// Where the card comes from and how well it fits: free text by key, kept in order, carried through
+  /// unchanged.
   std::vector<std::pair<std::string, std::string>> provenance;
 
-  /// Throws InputError that names the key and the violated bound; `where` is the file or the object that holds the card.
+  /// Throws InputError that names the key and the violated bound; `where` is the file or the object that holds
+  /// the card.
   void validate(const std::string& where) const;
 };
 
@@ -44,6 +49,16 @@ struct MaterialCard {
 MaterialCard read_card(const std::filesystem::path& file);
 /// The text of card.toml, with units and comments; reading it back gives the same bits.
 std::string to_toml(const MaterialCard& card);
+
+/// One number of a card: its key in card.toml, its SI value, what kind of quantity it is and what it means.
+struct CardNumber {
+  std::string_view key;
+  double value;
+  Quantity kind;
+  std::string_view meaning;
+};
+/// All the numbers of a card, in the order of card.toml: for listings and exporters.
+std::vector<CardNumber> numbers_of(const MaterialCard& card);
 
 std::string_view name_of(SofteningUnloading choice);
 std::string_view name_of(CohesionDuringSoftening choice);

@@ -1,0 +1,140 @@
+// spall card show | check | export | example
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/verbs.h"
+#include "libdem/config/nearest_name.h"
+#include "libdem/core/atomic_file.h"
+#include "libdem/core/error.h"
+#include "libdem/material/material_card.h"
+#include "libdem/material/micro_macro.h"
+
+namespace app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CardOptions {
+  CommonOptions common;
+  std::string card, format, output;
+};
+
+Json to_json(const dem::MaterialCard& card) {
+  Json json;
+  json["name"] = card.name;
+  for (const dem::CardNumber& number : dem::numbers_of(card)) json[number.key] = number.value;
+  json["unloading"] = dem::name_of(card.unloading);
+  json["cohesion_during_softening"] = dem::name_of(card.cohesion_during_softening);
+  json["broken_link_contact"] = dem::name_of(card.broken_link_contact);
+  json["provenance"] = Json::object();
+  for (const auto& [key, value] : card.provenance) json["provenance"][key] = value;
+  return json;
+}
+
+/// Key, value, SI unit, meaning: for spreadsheets and for codes that have no exporter of their own.
+std::string to_csv(const dem::MaterialCard& card) {
+  std::string text = "key,value,unit,meaning\n";
+  for (const dem::CardNumber& number : dem::numbers_of(card))
+    text +=
+        fmt::format("{},{},{},\"{}\"\n", number.key, number.value, dem::si_unit(number.kind), number.meaning);
+  text += fmt::format("unloading,{},-,\n", dem::name_of(card.unloading));
+  text += fmt::format("cohesion_during_softening,{},-,\n", dem::name_of(card.cohesion_during_softening));
+  text += fmt::format("broken_link_contact,{},-,\n", dem::name_of(card.broken_link_contact));
+  return text;
+}
+
+int show(const CardOptions& options) {
+  const dem::MaterialCard card = dem::read_card(options.card);
+  const dem::LinkStiffness link =
+      dem::link_stiffness(card.young_modulus, card.poisson_ratio, card.alpha, card.beta, card.gamma);
+  Console console(options.common);
+  console.say(dem::to_toml(card));
+  console.say(fmt::format("# A link then has (Eq. 1): Ks/Kn = {:.5g}, Kn D_init / S_int = {:.5g} GPa",
+                          link.shear_ratio, link.normal_modulus / 1e9));
+  Json json = to_json(card);
+  json["link"] = {{"shear_ratio", link.shear_ratio}, {"normal_modulus", link.normal_modulus}};
+  console.result(json.dump(2));
+  return done;
+}
+
+int check(const CardOptions& options) {
+  const dem::MaterialCard card = dem::read_card(options.card);
+  Console console(options.common);
+  console.say(fmt::format("{}: a valid material card ({})", options.card, card.name));
+  console.result(Json{{"card", options.card}, {"valid", true}}.dump(2));
+  return done;
+}
+
+/// Writes `text` to -o, or to standard output if there is no -o.
+int deliver(const CardOptions& options, const std::string& text, const Json& json) {
+  if (options.output.empty()) {
+    if (options.common.json)
+      fmt::print("{}\n", json.dump(2));
+    else
+      fmt::print("{}", text);
+    return done;
+  }
+  require_writable_file(options.output);
+  dem::write_file_atomically(options.output, text);
+  Console console(options.common);
+  console.say(fmt::format("wrote {}", options.output));
+  console.result(Json{{"output", options.output}}.dump(2));
+  return done;
+}
+
+int export_card(const CardOptions& options) {
+  const std::vector<std::string> planned{"yade-jcfpm", "yade-cpm", "lammps-bpm"};
+  if (options.format != "csv") {
+    const bool known = std::find(planned.begin(), planned.end(), options.format) != planned.end();
+    throw dem::InputError(
+        "--to", fmt::format("\"{}\" is {}", options.format, known ? "not available yet" : "no format"),
+        known ? "available: csv" : dem::suggestion(options.format, {"csv"}));
+  }
+  const dem::MaterialCard card = dem::read_card(options.card);
+  return deliver(options, to_csv(card), to_json(card));
+}
+
+int write_example(const CardOptions& options) {
+  dem::MaterialCard card;
+  card.name = "Table 2 of the paper";
+  card.cohesion = 36e6;
+  card.provenance = {{"source", "Table 2 and Eq. 3 of the paper; the density is an ordinary value"}};
+  return deliver(options, dem::to_toml(card), to_json(card));
+}
+
+}  // namespace
+
+void add_card(CLI::App& root, Invocation& invocation) {
+  CLI::App* card = root.add_subcommand("card", "Show, check or export a material card");
+  card->require_subcommand(1);
+  const auto options = std::make_shared<CardOptions>();
+  const auto add = [&](const std::string& name, const std::string& description, const std::string& example,
+                       int (*action)(const CardOptions&)) {
+    CLI::App* verb = add_verb(*card, name, description, example, options->common);
+    verb->callback([options, action, &invocation] { invocation.action = [=] { return action(*options); }; });
+    return verb;
+  };
+  const std::string make_one = "spall card example -o card.toml\n";
+  add("show", "Print a card with the link stiffness that follows from it",
+      make_one + "spall card show card.toml", show)
+      ->add_option("card", options->card, "Material card (TOML)")
+      ->required();
+  add("check", "Check a card: exit code 0 if it is valid, 2 and one line if not",
+      make_one + "spall card check card.toml", check)
+      ->add_option("card", options->card, "Material card (TOML)")
+      ->required();
+  CLI::App* exporter = add("export", "Write a card for another code",
+                           make_one + "spall card export card.toml --to csv -o card.csv", export_card);
+  exporter->add_option("card", options->card, "Material card (TOML)")->required();
+  exporter->add_option("--to", options->format, "Format: csv (yade-jcfpm, yade-cpm and lammps-bpm are planned)")
+      ->required();
+  exporter->add_option("-o,--output", options->output, "File to write (default: standard output)");
+  add("example", "Write a valid card to begin with: Table 2 of the paper", "spall card example -o card.toml",
+      write_example)
+      ->add_option("-o,--output", options->output, "File to write (default: standard output)");
+}
+
+}  // namespace app

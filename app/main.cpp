@@ -1,0 +1,70 @@
+// The `spall` command: parses the command line, runs the verb, and turns failures into exit codes and one line
+// each.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "app/output.h"
+#include "app/verbs.h"
+#include "app/version.h"
+#include "libdem/core/error.h"
+#include "libdem/core/interrupt.h"
+
+namespace {
+
+int tell(int code, std::string message) {
+  // One line, whatever a library put into its message.
+  std::replace_if(
+      message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+  fmt::print(stderr, "{}\n", message);
+  return code;
+}
+
+int fail(int code, const char* message) { return tell(code, std::string("spall: ") + message); }
+
+int run(const std::function<int()>& action) {
+  try {
+    return action();
+  } catch (const dem::InputError& error) {
+    return fail(app::input_wrong, error.what());
+  } catch (const dem::Interrupted& error) {
+    return fail(app::stopped, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(app::run_failed, "out of memory; use fewer elements or a machine with more memory");
+  } catch (const std::exception& error) {
+    return fail(app::run_failed, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  app::Invocation invocation;
+  invocation.arguments.assign(values, values + count);
+  invocation.started = app::utc_now();
+
+  CLI::App root("Calibration and virtual testing of concrete modelled by discrete elements", "spall");
+  root.require_subcommand(1);
+  root.set_version_flag("--version", fmt::format("spall {} ({})", app::version, app::commit));
+  root.footer(
+      "Exit codes: 0 done, 1 the run failed, 2 the input is wrong, 3 stopped by a signal (go on with "
+      "--resume),\n"
+      "4 done, but a fit did not meet its tolerance.\n"
+      "Each verb has its own --help, with an example.");
+  // app::add_specimen(root, invocation);
+  // app::add_test(root, invocation);
+  // app::add_calibrate(root, invocation);
+  app::add_card(root, invocation);
+  // app::add_report(root, invocation);
+
+  try {
+    root.parse(count, values);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return root.exit(error);  // --help and --version
+    return tell(app::input_wrong, app::explain(root, error, invocation.arguments));
+  }
+  dem::install_interrupt_handlers();
+  return run(invocation.action);
+}

@@ -1,0 +1,56 @@
+#include "app/output.h"
+
+#include <ctime>
+
+#include "app/machine.h"
+#include "app/version.h"
+#include "libdem/core/atomic_file.h"
+#include "libdem/core/sha256.h"
+
+namespace app {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)
+    : folder(where), invocation(call), threads(common.thread_count()) {
+  dem::require_writable_folder(folder);
+}
+
+void RunFolder::add_input(const std::filesystem::path& input) {
+  inputs.push_back({{"file", input.string()}, {"sha256", dem::sha256_of_file(input)}});
+}
+
+void RunFolder::add_seed(std::uint64_t seed) { seeds.push_back(seed); }
+
+void RunFolder::write(const nlohmann::ordered_json& result) const {
+  const Machine machine = this_machine();
+  nlohmann::ordered_json run;
+  run["version"] = version;
+  run["commit"] = commit;
+  run["command_line"] = invocation.arguments;
+  run["inputs"] = inputs;
+  run["seeds"] = seeds;
+  run["threads"] = threads;
+  run["machine"] = {{"cpu", machine.cpu},
+                    {"cores", machine.cores},
+                    {"memory_bytes", machine.memory},
+                    {"kernel", machine.kernel},
+                    {"arch", machine.arch}};
+  run["start"] = invocation.started;
+  run["end"] = utc_now();
+  // Bytes of a path that are no UTF-8 must not make a finished run fail.
+  const auto text = [](const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  };
+  dem::write_file_atomically(file("run.json"), text(run));
+  dem::write_file_atomically(file("result.json"), text(result));
+}
+
+}  // namespace app

@@ -1,0 +1,41 @@
+// The folder that a run leaves: result.json and its provenance, run.json. Each is written whole or not at all.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace app {
+
+/// The present time as ISO 8601 in UTC: "2026-01-31T09:15:02Z".
+std::string utc_now();
+
+/// The output folder of one run.
+class RunFolder {
+ public:
+  /// Makes the folder and checks that files can be written in it. Throws RunError: construct it before any
+  /// computing.
+  RunFolder(const std::filesystem::path& folder, const Invocation& invocation, const CommonOptions& common);
+
+  /// Records an input file with its SHA-256. Throws InputError if it cannot be read. Call it when the file is
+  /// read: what counts is what the run saw.
+  void add_input(const std::filesystem::path& file);
+  void add_seed(std::uint64_t seed);
+
+  std::filesystem::path file(const std::string& name) const { return folder / name; }
+  /// Writes run.json, then result.json: where there is a result.json, everything else is there too. Throws
+  /// RunError.
+  void write(const nlohmann::ordered_json& result) const;
+
+ private:
+  std::filesystem::path folder;
+  const Invocation& invocation;
+  int threads;
+  nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
+  std::vector<std::uint64_t> seeds;
+};
+
+}  // namespace app
