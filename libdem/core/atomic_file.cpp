@@ -40,7 +40,8 @@ void put_in_place(const std::filesystem::path& part, const std::filesystem::path
 void require_writable_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RunError(fmt::format("{}: the folder cannot be made ({})", folder.string(), error.message()));
+  if (error)
+    throw RunError(fmt::format("{}: the folder cannot be made ({})", folder.string(), error.message()));
   const std::filesystem::path probe = folder / fmt::format(".spall-probe.{}", ::getpid());
   const int descriptor = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
   if (descriptor < 0) fail(folder, "write in this folder");

@@ -6,14 +6,15 @@
 
 namespace dem {
 
-/// Creates the folder (and its parents) if needed and checks that files can be written in it. Throws RunError if not.
+/// Creates the folder (and its parents) if needed and checks that files can be written in it. Throws RunError
+/// if not.
 void require_writable_folder(const std::filesystem::path& folder);
 
 /// Writes `content` to `file` atomically. Throws RunError that names the file and the system's reason.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
-/// Lets `write` produce a temporary file beside `file` (for libraries that write files themselves), then flushes and
-/// renames it. The temporary file is removed if `write` throws.
+/// Lets `write` produce a temporary file beside `file` (for libraries that write files themselves), then
+/// flushes and renames it. The temporary file is removed if `write` throws.
 void write_file_atomically(const std::filesystem::path& file,
                            const std::function<void(const std::filesystem::path&)>& write);
 

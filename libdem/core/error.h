@@ -1,13 +1,13 @@
-// The errors that Spall throws. Each one is a sentence for its reader: where it went wrong, what is wrong there, and
-// what is allowed or would help. The command line maps them to exit codes.
+// The errors that Spall throws. Each one is a sentence for its reader: where it went wrong, what is wrong
+// there, and what is allowed or would help. The command line maps them to exit codes.
 #pragma once
 #include <stdexcept>
 #include <string>
 
 namespace dem {
 
-/// The input is wrong (exit code 2). `where` names the file and the key, column or row; `what_is_wrong` says what was
-/// found; `remedy` says what is allowed. The message is one line: "where: what_is_wrong; remedy".
+/// The input is wrong (exit code 2). `where` names the file and the key, column or row; `what_is_wrong` says
+/// what was found; `remedy` says what is allowed. The message is one line: "where: what_is_wrong; remedy".
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& where, const std::string& what_is_wrong, const std::string& remedy)

@@ -5,7 +5,8 @@
 
 namespace dem {
 
-/// Where a long job stands. `done` and `total` count the same thing (named by `unit`); total is 0 when it is unknown.
+/// Where a long job stands. `done` and `total` count the same thing (named by `unit`); total is 0 when it is
+/// unknown.
 struct Progress {
   std::string stage;   ///< what is being done now, e.g. "compression, seed 3"
   double done = 0;     ///< how much of it is done

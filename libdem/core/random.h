@@ -1,4 +1,5 @@
-// Seeded random numbers whose bits are ours: the same seed gives the same sequence on every platform and library.
+// Seeded random numbers whose bits are ours: the same seed gives the same sequence on every platform and
+// library.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -16,7 +16,8 @@ struct Sha256::Context {
 };
 
 Sha256::Sha256() : context(std::make_unique<Context>()) {
-  if (EVP_DigestInit_ex(context->evp, EVP_sha256(), nullptr) != 1) throw RunError("SHA-256 is not available in OpenSSL");
+  if (EVP_DigestInit_ex(context->evp, EVP_sha256(), nullptr) != 1)
+    throw RunError("SHA-256 is not available in OpenSSL");
 }
 Sha256::~Sha256() = default;
 
@@ -41,7 +42,8 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   if (!in) throw InputError(file.string(), "cannot be read", "check the path and the permissions");
   Sha256 hash;
   std::array<char, 1 << 16> buffer;
-  while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0) hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
+  while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0)
+    hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
   return hash.hex();
 }
 

@@ -19,16 +19,26 @@ struct Kind {
 
 Kind kind(Quantity quantity) {
   switch (quantity) {
-    case Quantity::length: return {"m", "98.6 mm", "length"};
-    case Quantity::velocity: return {"m/s", "40 m/s", "velocity"};
-    case Quantity::time: return {"s", "20 ms", "time"};
-    case Quantity::mass: return {"kg", "67.5 kg", "mass"};
-    case Quantity::density: return {"kg/m3", "2400 kg/m3", "density"};
-    case Quantity::force: return {"N", "12 kN", "force"};
-    case Quantity::stress: return {"Pa", "24 GPa", "stress"};
-    case Quantity::fracture_energy: return {"N/m", "146.5 N/m", "fracture energy"};
-    case Quantity::angle: return {"rad", "6 degree", "angle"};
-    case Quantity::ratio: return {"1", "0.2", "number without dimension"};
+    case Quantity::length:
+      return {"m", "98.6 mm", "length"};
+    case Quantity::velocity:
+      return {"m/s", "40 m/s", "velocity"};
+    case Quantity::time:
+      return {"s", "20 ms", "time"};
+    case Quantity::mass:
+      return {"kg", "67.5 kg", "mass"};
+    case Quantity::density:
+      return {"kg/m3", "2400 kg/m3", "density"};
+    case Quantity::force:
+      return {"N", "12 kN", "force"};
+    case Quantity::stress:
+      return {"Pa", "24 GPa", "stress"};
+    case Quantity::fracture_energy:
+      return {"N/m", "146.5 N/m", "fracture energy"};
+    case Quantity::angle:
+      return {"rad", "6 degree", "angle"};
+    case Quantity::ratio:
+      return {"1", "0.2", "number without dimension"};
   }
   return {"1", "1", "number"};
 }
@@ -44,9 +54,11 @@ struct System {
   System() {
     ut_set_error_message_handler(ut_ignore);
     system = ut_read_xml(nullptr);
-    if (system == nullptr) throw RunError("the unit database of UDUNITS-2 cannot be read; install libudunits2-data");
+    if (system == nullptr)
+      throw RunError("the unit database of UDUNITS-2 cannot be read; install libudunits2-data");
     Unit thousandth(ut_scale(1e-3, ut_get_dimensionless_unit_one(system)));
-    for (const char* name : {"permil", "permille", "promille"}) ut_map_name_to_unit(name, UT_ASCII, thousandth.get());
+    for (const char* name : {"permil", "permille", "promille"})
+      ut_map_name_to_unit(name, UT_ASCII, thousandth.get());
   }
 };
 
@@ -62,7 +74,8 @@ std::string_view trim(std::string_view text) {
 }
 
 /// Takes the leading number off `text`.
-double take_number(std::string_view& text, std::string_view whole, Quantity quantity, const std::string& where) {
+double take_number(std::string_view& text, std::string_view whole, Quantity quantity,
+                   const std::string& where) {
   text = trim(text);
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
@@ -84,7 +97,8 @@ double unit_factor(std::string_view unit, Quantity quantity, const std::string& 
   const Kind wanted = kind(quantity);
   if (quantity == Quantity::ratio && (unit.empty() || unit == "-" || unit == "1")) return 1;
   if (unit.empty())
-    throw InputError(where, "the unit is missing", fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+    throw InputError(where, "the unit is missing",
+                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
   System& known = units();
   const std::scoped_lock lock(known.mutex);
   const Unit from(ut_parse(known.system, std::string(unit).c_str(), UT_UTF8));
@@ -96,7 +110,8 @@ double unit_factor(std::string_view unit, Quantity quantity, const std::string& 
   if (!ut_are_convertible(from.get(), to.get()))
     throw InputError(where, fmt::format("\"{}\" is not a unit of {}", unit, wanted.name),
                      fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
-  const std::unique_ptr<cv_converter, void (*)(cv_converter*)> convert(ut_get_converter(from.get(), to.get()), cv_free);
+  const std::unique_ptr<cv_converter, void (*)(cv_converter*)> convert(ut_get_converter(from.get(), to.get()),
+                                                                       cv_free);
   return cv_convert_double(convert.get(), 1.0) - cv_convert_double(convert.get(), 0.0);
 }
 

@@ -1,4 +1,5 @@
-// Units live at the border only: text such as "24 GPa" becomes an SI number here and never carries its unit further.
+// Units live at the border only: text such as "24 GPa" becomes an SI number here and never carries its unit
+// further.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,8 +14,9 @@ enum class Quantity { length, velocity, time, mass, density, force, stress, frac
 std::string_view si_unit(Quantity quantity);
 std::string_view example(Quantity quantity);
 
-/// "24 GPa" -> 2.4e10. A ratio may stand without a unit ("0.2"). Uses UDUNITS-2 ("permil" and "permille" are known too).
-/// Throws InputError, prefixed by `where`, if the number is missing or not finite, the unit is missing, unknown or of another kind.
+/// "24 GPa" -> 2.4e10. A ratio may stand without a unit ("0.2"). Uses UDUNITS-2 ("permil" and "permille" are
+/// known too). Throws InputError, prefixed by `where`, if the number is missing or not finite, the unit is
+/// missing, unknown or of another kind.
 double parse_quantity(std::string_view text, Quantity quantity, const std::string& where);
 
 /// "0.5x0.25x0.25 m" -> {0.5, 0.25, 0.25}; also "1.25,1.0,0.14 m". One unit at the end for all of them.

@@ -1,0 +1,52 @@
+#include "libdem/state/links.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace dem {
+
+void Links::push(std::int32_t first, std::int32_t second, double initial_distance, double interaction_area,
+                 double initial_max_strain) {
+  a.push_back(first);
+  b.push_back(second);
+  inverse_initial_distance.push_back(1 / initial_distance);
+  area.push_back(interaction_area);
+  max_strain.push_back(initial_max_strain);
+  for (Column<double>* column : {&shear_x, &shear_y, &shear_z}) column->push_back(0);
+  ++count;
+}
+
+void Links::pad(std::int32_t ghost) {
+  const std::size_t real = count;
+  while (a.size() % link_padding != 0) push(ghost, ghost + 1, 1, 0);
+  count = real;
+}
+
+void Links::clear() { *this = Links{}; }
+
+Links make_links(std::span<const LinkGeometry> pairs, std::span<const double> radii) {
+  Links links;
+  for (const LinkGeometry& pair : pairs) {
+    const double r = std::min(radii[static_cast<std::size_t>(pair.a)], radii[static_cast<std::size_t>(pair.b)]);
+    links.push(pair.a, pair.b, pair.initial_distance, std::numbers::pi * r * r);
+  }
+  links.pad(static_cast<std::int32_t>(radii.size()));
+  return links;
+}
+
+Incidence::Incidence(const Links& links, std::size_t elements)
+    : first(elements + 1, 0), entry(2 * links.count) {
+  for (std::size_t k = 0; k < links.count; ++k) {
+    ++first[static_cast<std::size_t>(links.a[k]) + 1];
+    ++first[static_cast<std::size_t>(links.b[k]) + 1];
+  }
+  for (std::size_t i = 0; i < elements; ++i) first[i + 1] += first[i];
+  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t k = 0; k < links.count; ++k) {
+    const auto pair = static_cast<std::int32_t>(2 * k);
+    entry[static_cast<std::size_t>(next[static_cast<std::size_t>(links.a[k])]++)] = pair;
+    entry[static_cast<std::size_t>(next[static_cast<std::size_t>(links.b[k])]++)] = pair + 1;
+  }
+}
+
+}  // namespace dem

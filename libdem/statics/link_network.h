@@ -1,0 +1,35 @@
+// The link network as a linear elastic structure: six degrees of freedom an element, two springs a link.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libdem/core/vector.h"
+#include "libdem/state/links.h"
+
+namespace dem {
+
+/// One link's springs about its geometry at rest.
+struct LinkSpring {
+  std::int32_t a = 0, b = 0;
+  Vec3 normal;                                       ///< from a to b
+  double arm_a = 0, arm_b = 0;                       ///< to the contact point P_c (Eq. 2) [m]
+  double normal_stiffness = 0, shear_stiffness = 0;  ///< Kn, Ks [N/m]
+};
+
+/// The stiffness matrix of unbroken links, never assembled: it is applied link by link, in their order.
+struct LinkNetwork {
+  std::size_t elements = 0;
+  std::vector<LinkSpring> springs;
+
+  /// Kn = normal_modulus * S_int / D_init, Ks = shear_ratio * Kn.
+  LinkNetwork(std::span<const Vec3> centres, std::span<const double> radii, std::span<const LinkGeometry> links,
+              double normal_modulus, double shear_ratio);
+
+  /// force = K displacement; both 6 * elements: (ux, uy, uz, rx, ry, rz) by element [m, rad] -> [N, N m].
+  void multiply(std::span<const double> displacement, std::span<double> force) const;
+  /// Number of links at each element.
+  std::vector<int> coordination() const;
+};
+
+}  // namespace dem
