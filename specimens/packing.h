@@ -20,7 +20,7 @@ struct PackingOptions {
   Grading grading;
   double dense_solid_fraction =
       0.62;                      ///< volume of the elements over that of the shape while relaxing, 0.45 to 0.64
-  double solid_fraction = 0.41;  ///< the same at the end, 0.1 to 0.9 * dense_solid_fraction
+  double solid_fraction = 0.42;  ///< the same at the end, 0.1 to 0.9 * dense_solid_fraction
   int threads = 0;               ///< 0: as many as OpenMP gives; the result does not depend on it
 
   /// Throws InputError that names the bound which is violated.

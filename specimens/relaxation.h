@@ -13,7 +13,7 @@ struct RelaxationOptions {
   Shape shape = Shape::box;
   Vec3 size = Vec3::Zero();  ///< [m]
   double wall_share = 1;     ///< a centre keeps this share of its radius from the faces
-  double tolerance = 0.01;   ///< stop when no overlap exceeds this share of Ra + Rb
+  double tolerance = 0.02;   ///< stop when no overlap exceeds this share of Ra + Rb
   std::size_t most_sweeps = 3000;
   int threads = 1;
   /// Called after each sweep with the largest overlap (share of Ra + Rb); may throw.
