@@ -53,11 +53,11 @@ int main(int count, char** values) {
       "--resume),\n"
       "4 done, but a fit did not meet its tolerance.\n"
       "Each verb has its own --help, with an example.");
-  // app::add_specimen(root, invocation);
-  // app::add_test(root, invocation);
+  app::add_specimen(root, invocation);
+  app::add_test(root, invocation);
   // app::add_calibrate(root, invocation);
   app::add_card(root, invocation);
-  // app::add_report(root, invocation);
+  app::add_report(root, invocation);
 
   try {
     root.parse(count, values);

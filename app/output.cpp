@@ -40,7 +40,7 @@ void RunFolder::write(const nlohmann::ordered_json& result) const {
   run["threads"] = threads;
   run["machine"] = {{"cpu", machine.cpu},
                     {"cores", machine.cores},
-                    {"memory_bytes", machine.memory},
+                    {"memory_bytes", static_cast<std::uint64_t>(machine.memory)},
                     {"kernel", machine.kernel},
                     {"arch", machine.arch}};
   run["start"] = invocation.started;

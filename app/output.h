@@ -25,6 +25,7 @@ class RunFolder {
   void add_input(const std::filesystem::path& file);
   void add_seed(std::uint64_t seed);
 
+  const std::filesystem::path& path() const { return folder; }
   std::filesystem::path file(const std::string& name) const { return folder / name; }
   /// Writes run.json, then result.json: where there is a result.json, everything else is there too. Throws
   /// RunError.
