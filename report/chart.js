@@ -8,8 +8,9 @@
   const usable = (value, axis) => value !== null && Number.isFinite(value) && (!axis.log || value > 0);
   const along = (axis, value) => (axis.log ? Math.log10(value) : value);
   const back = (axis, place) => (axis.log ? 10 ** place : place);
+  const unitless = (unit) => !unit || unit === '-' || unit === '1';
   const words = (axis) => (axis.unit ? `${axis.title} [${axis.unit}]` : axis.title);
-  const short = (value, unit) => `${String(Number(value.toPrecision(5))).replace('-', '−')}${unit ? ' ' + unit : ''}`;
+  const short = (value, unit) => `${String(Number(value.toPrecision(5))).replace('-', '−')}${unitless(unit) ? '' : ' ' + unit}`;
 
   // Ticks at 1, 2 or 5 times a power of ten, as in chart_svg.cpp. [low, high] in data units.
   function ticks(axis, [low, high], wanted) {
@@ -113,12 +114,15 @@
         grid += `M${box.left} ${py(value).toFixed(1)}H${right}`;
         text += `<text x="${box.left - 8}" y="${(py(value) + 4).toFixed(1)}" text-anchor="end">${ty.labels[k]}</text>`;
       });
+      const crosses = (axis, [low, high]) => !axis.log && low < 0 && high > 0;
+      const zero = (crosses(data.x, shownX) ? `M${px(0).toFixed(1)} ${box.top}V${bottom}` : '') +
+        (crosses(data.y, shownY) ? `M${box.left} ${py(0).toFixed(1)}H${right}` : '');
       text += `<text class="title" text-anchor="middle" x="${(box.left + right) / 2}" y="${height - 10}">${titled(data.x, tx.power)}</text>`;
       text += `<text class="title" text-anchor="middle" x="16" y="${middle}" transform="rotate(-90 16 ${middle})">${titled(data.y, ty.power)}</text>`;
       const curves = data.series.filter((s) => s.shown).map((s) => `<path class="${s.kind} c${s.colour}" d="${path(s)}"/>`).join('');
       svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
       svg.innerHTML = `<clipPath id="${clip}"><rect x="${box.left}" y="${box.top}" width="${box.width}" height="${box.height}"/></clipPath>` +
-        `<path class="grid" d="${grid}"/><path class="frame" d="M${box.left} ${box.top}V${bottom}H${right}"/>` +
+        `<path class="grid" d="${grid}"/><path class="zero" d="${zero}"/><path class="frame" d="M${box.left} ${box.top}V${bottom}H${right}"/>` +
         `<g class="words">${text}</g><g clip-path="url(#${clip})">${curves}</g><g class="over"></g>`;
       point(chosen, false);
     }
@@ -155,7 +159,8 @@
         if (!series.shown) continue;
         for (let k = 0; k < series.x.length; ++k) {
           if (!readable(series, k)) continue;
-          const distance = (px(series.x[k]) - x) ** 2 + (py(series.y[k]) - y) ** 2;
+          // A band gives way to a curve as near as its edge: the curve is what the reader wants to know.
+          const distance = (px(series.x[k]) - x) ** 2 + (py(series.y[k]) - y) ** 2 + (series.upper ? 150 : 0);
           if (distance < closest) [best, closest] = [{ series, k }, distance];
         }
       }
@@ -298,7 +303,7 @@
 
     // The drawing with its title and legend, its looks written into it so that it stands alone.
     function picture() {
-      const looks = ['fill', 'fill-opacity', 'stroke', 'stroke-opacity', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'font-size', 'font-family'];
+      const looks = ['fill', 'fill-opacity', 'stroke', 'stroke-opacity', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'stroke-linecap', 'font-size', 'font-family'];
       const shown = data.series.filter((series) => series.shown);
       const head = 30 + 18 * shown.length;
       const live = svg.cloneNode(true);

@@ -253,6 +253,12 @@ std::string static_svg(const Chart& chart, const std::string& id) {
     grid += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y, kWidth - kRight);
     text(kLeft - 8, y + 4, "end", y_ticks.labels[k]);
   }
+  std::string zero;
+  const auto crosses = [](const Scale& scale) {
+    return !scale.logarithmic && scale.range.low < 0 && scale.range.high > 0;
+  };
+  if (crosses(across)) zero += fmt::format("M{:.1f} {:.1f}V{:.1f}", across(0), kTop, kHeight - kBottom);
+  if (crosses(up)) zero += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, up(0), kWidth - kRight);
   const auto with_power = [](const Axis& axis, int power) {
     return axis_words(axis) + (power == 0 ? "" : "  ×10" + superscript(power));
   };
@@ -269,15 +275,16 @@ std::string static_svg(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{label}\">"
       "<clipPath id=\"{id}\"><rect x=\"{l}\" y=\"{t}\" width=\"{iw}\" height=\"{ih}\"/></clipPath>"
-      "<path class=\"grid\" d=\"{grid}\"/><path class=\"frame\" d=\"M{l} {t}V{b}H{r}\"/>"
+      "<path class=\"grid\" d=\"{grid}\"/><path class=\"zero\" d=\"{zero}\"/><path class=\"frame\" d=\"M{l} "
+      "{t}V{b}H{r}\"/>"
       "<g class=\"words\">{words}</g><g clip-path=\"url(#{id})\">{curves}</g></svg>",
       fmt::arg("w", kWidth), fmt::arg("h", kHeight),
       fmt::arg("label",
                escape(fmt::format("{}: {} over {}", chart.title, axis_words(chart.y), axis_words(chart.x)))),
       fmt::arg("id", id), fmt::arg("l", kLeft), fmt::arg("t", kTop), fmt::arg("b", kHeight - kBottom),
       fmt::arg("r", kWidth - kRight), fmt::arg("iw", kWidth - kLeft - kRight),
-      fmt::arg("ih", kHeight - kTop - kBottom), fmt::arg("grid", grid), fmt::arg("words", words),
-      fmt::arg("curves", curves));
+      fmt::arg("ih", kHeight - kTop - kBottom), fmt::arg("grid", grid), fmt::arg("zero", zero),
+      fmt::arg("words", words), fmt::arg("curves", curves));
 }
 
 std::string swatch_svg(Series::Kind kind, int colour) {
