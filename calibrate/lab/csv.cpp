@@ -167,6 +167,16 @@ std::optional<double> to_number(std::string text) {
   return value;
 }
 
+/// A cell as a message may show it: short, and without characters that would break the line.
+std::string shown(std::string_view cell) {
+  std::string text(cell.substr(0, 40));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  while (cell.size() > 40 && !text.empty() && (static_cast<unsigned char>(text.back()) & 0x80) != 0)
+    text.pop_back();
+  return cell.size() > 40 ? text + "..." : text;
+}
+
 CsvColumn parse_header(const std::string& header) {
   CsvColumn column{header, "", header};
   std::size_t open = std::string::npos;
@@ -228,29 +238,29 @@ std::vector<std::string> nearest_names(std::string_view name, const std::vector<
   return names;
 }
 
-CsvTable read_csv(const std::filesystem::path& path, const CsvOptions& options) {
+CsvTable read_csv(const std::filesystem::path& file, const CsvOptions& options) {
   CsvTable table;
-  table.file = path.string();
-  const std::string& file = table.file;
-  std::vector<Line> lines = split_lines(read_text(path), options.comment);
+  table.file = file.string();
+  const std::string& name = table.file;
+  std::vector<Line> lines = split_lines(read_text(file), options.comment);
   table.separator = options.separator;
   if (!lines.empty() && lower(lines[0].text).starts_with("sep=") && lines[0].text.size() == 5) {
     if (table.separator == 0) table.separator = lines[0].text[4];
     lines.erase(lines.begin());
   }
   if (lines.empty())
-    throw InputError(file, "is empty", "it needs a header such as strain[-],stress[MPa] and rows");
-  if (table.separator == 0) table.separator = detect_separator(lines, file);
+    throw InputError(name, "is empty", "it needs a header such as strain[-],stress[MPa] and rows");
+  if (table.separator == 0) table.separator = detect_separator(lines, name);
 
-  for (const std::string& header : split_cells(lines[0], table.separator, file))
+  for (const std::string& header : split_cells(lines[0], table.separator, name))
     table.columns.push_back(parse_header(header));
   if (std::ranges::all_of(table.columns,
                           [](const auto& column) { return to_number(column.header).has_value(); }))
-    throw InputError(fmt::format("{}: row {}", file, lines[0].number), "numbers where the header is due",
+    throw InputError(fmt::format("{}: row {}", name, lines[0].number), "numbers where the header is due",
                      "put a line such as strain[-],stress[MPa] first");
   std::size_t first = 1;
   if (lines.size() > 1) {
-    const auto units = split_cells(lines[1], table.separator, file);
+    const auto units = split_cells(lines[1], table.separator, name);
     if (is_unit_row(table.columns, units)) {
       for (std::size_t k = 0; k < units.size(); ++k) {
         const bool bracketed = units[k].size() > 2 && units[k].front() == '[' && units[k].back() == ']';
@@ -260,12 +270,12 @@ CsvTable read_csv(const std::filesystem::path& path, const CsvOptions& options) 
     }
   }
   for (std::size_t k = first; k < lines.size(); ++k) {
-    auto cells = split_cells(lines[k], table.separator, file);
+    auto cells = split_cells(lines[k], table.separator, name);
     // Exports often end every row, though not the header, with a separator.
     while (cells.size() > table.columns.size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.columns.size()) {
       const bool doubled = table.separator == ',' && cells.size() == 2 * table.columns.size();
-      throw InputError(fmt::format("{}: row {}", file, lines[k].number),
+      throw InputError(fmt::format("{}: row {}", name, lines[k].number),
                        fmt::format("has {} cells where the header has {}", cells.size(), table.columns.size()),
                        doubled ? "with decimal commas, separate the columns by semicolons or tabs"
                                : "give every row one cell per column; put text with a separator in quotes");
@@ -274,7 +284,7 @@ CsvTable read_csv(const std::filesystem::path& path, const CsvOptions& options) 
     table.line.push_back(lines[k].number);
   }
   if (table.cells.empty())
-    throw InputError(fmt::format("{}: row {}", file, lines[0].number), "a header and no rows below it",
+    throw InputError(fmt::format("{}: row {}", name, lines[0].number), "a header and no rows below it",
                      "check that the export is complete");
   return table;
 }
@@ -305,7 +315,7 @@ double number_at(const CsvTable& table, std::size_t row, std::size_t column) {
   if (value && std::isfinite(*value)) return *value;
   throw InputError(
       cell_place(table, row, column),
-      cell.empty() ? std::string("the cell is empty") : fmt::format("\"{}\" is no finite number", cell),
+      cell.empty() ? std::string("the cell is empty") : fmt::format("\"{}\" is no finite number", shown(cell)),
       "correct the cell, or leave the row out by a # in front");
 }
 

@@ -190,7 +190,31 @@ LabCurve read_curve(const std::filesystem::path& file, const CurveSpec& spec) {
   return curve;
 }
 
+void validate(const CurveOptions& options, const std::string& where) {
+  const auto require = [&](bool met, const char* name, double value, const char* bound) {
+    if (!met)
+      throw InputError(where, fmt::format("{} = {:g}", name, value), fmt::format("{} is allowed", bound));
+  };
+  const CheckOptions& check = options.check;
+  require(check.min_rows >= 3, "min_rows", check.min_rows, "3 or more");
+  require(check.strain_noise >= 0 && check.strain_noise < 0.5, "strain_noise", check.strain_noise, "0 to 0.5");
+  require(check.unload_depth > 0 && check.unload_depth < 1, "unload_depth", check.unload_depth, "0 to 1");
+  require(check.seating >= 0 && check.seating <= 0.1, "seating", check.seating, "0 to 0.1");
+  require(check.spike > 0, "spike", check.spike, "more than 0");
+  require(options.toe.lower > 0 && options.toe.lower < options.toe.upper, "toe.lower", options.toe.lower,
+          "more than 0 and less than toe.upper");
+  require(options.toe.upper < 0.9, "toe.upper", options.toe.upper, "less than 0.9");
+  require(options.toe.ignore_below >= 0, "toe.ignore_below", options.toe.ignore_below, "0 or more");
+  require(options.smooth.window >= 0 && options.smooth.window < 0.5, "smooth.window", options.smooth.window,
+          "0 to 0.5");
+  require(options.smooth.min_rows >= 5, "smooth.min_rows", options.smooth.min_rows, "5 or more");
+  require(options.smooth.max_rows >= 50, "smooth.max_rows", options.smooth.max_rows, "50 or more");
+  require(options.resample.points_to_peak >= 10, "resample.points_to_peak", options.resample.points_to_peak,
+          "10 or more");
+}
+
 LabCurve prepare_curve(const std::filesystem::path& file, const CurveSpec& spec, const CurveOptions& options) {
+  validate(options);
   LabCurve curve = loading_branch(read_curve(file, spec), options.check);
   check_curve(curve, options.check);
   curve = correct_toe(make_increasing(curve), options.toe);

@@ -61,6 +61,10 @@ struct CurveOptions {
   ResampleOptions resample;
 };
 
+/// Throws dem::InputError, prefixed by `where`, that names the first option out of its bounds. prepare_curve
+/// calls it.
+void validate(const CurveOptions& options, const std::string& where = "curve options");
+
 /// Stress against crack opening, for tension after the peak.
 struct OpeningCurve {
   std::string file;

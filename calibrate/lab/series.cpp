@@ -99,6 +99,7 @@ Series average(const std::vector<LabCurve>& curves, const SeriesOptions& options
 
   std::vector<double> grid;
   const int points = std::max(options.points_to_peak, 2);
+  grid.reserve(static_cast<std::size_t>(end * points) + 2);
   for (int k = 0; k <= static_cast<int>(end * points + 1e-6); ++k)
     grid.push_back(std::min<double>(k, end * points) / points);
   std::vector<std::vector<double>> stresses;
