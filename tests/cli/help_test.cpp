@@ -12,16 +12,16 @@ class Help : public cli::Command, public testing::WithParamInterface<const char*
     std::vector<std::string> result;
     bool quoted = false, inside = false;
     for (const char letter : line) {
-      if (letter == '"') {
-        quoted = !quoted;
-      } else if (letter == ' ' && !quoted) {
+      if (letter == ' ' && !quoted) {
         inside = false;
         continue;
-      } else {
-        if (!inside) result.emplace_back();
-        result.back() += letter;
       }
+      if (!inside) result.emplace_back();
       inside = true;
+      if (letter == '"')
+        quoted = !quoted;
+      else
+        result.back() += letter;
     }
     return result;
   }
@@ -49,7 +49,10 @@ TEST_P(Help, HasAnExampleThatWorksWhenPasted) {
   EXPECT_GE(commands, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Verbs, Help, testing::Values("card show", "card check", "card export", "card example"),
+INSTANTIATE_TEST_SUITE_P(Verbs, Help,
+                         testing::Values("specimen make", "specimen extract", "specimen inspect",
+                                         "test elastic", "test tension", "test compression", "card show",
+                                         "card check", "card export", "card example", "report"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace(name.begin(), name.end(), ' ', '_');

@@ -1,0 +1,123 @@
+// spall test and spall report: what a run leaves, and what it refuses before it computes.
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/cli/command.h"
+
+using cli::good_card;
+using cli::replaced;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+class VirtualTest : public cli::Command {
+ protected:
+  void SetUp() override {
+    Command::SetUp();
+    write("card.toml", good_card);
+  }
+  void make_specimen(const std::string& name = "s1.h5") {
+    const auto made =
+        spall({"specimen", "make", "--size", "0.4x0.2x0.2 m", "--elements", "1400", "-o", name, "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  static std::vector<std::string> test(const std::string& kind, std::vector<std::string> more = {}) {
+    std::vector<std::string> command{"test", kind, "--specimen", "s1.h5", "--card", "card.toml", "-o", "out"};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+  nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(read(name)); }
+  void expect_keys(const nlohmann::json& object, const std::vector<std::string>& keys) const {
+    for (const std::string& key : keys) EXPECT_TRUE(object.contains(key) && !object[key].is_null()) << key;
+  }
+};
+
+TEST_F(VirtualTest, ElasticLeavesResultAndProvenance) {
+  make_specimen();
+  const auto run = spall(test("elastic", {"--json", "--threads", "1"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto result = json("out/result.json");
+  EXPECT_EQ(nlohmann::json::parse(run.out), result);
+  expect_keys(result, {"E", "nu", "links", "elements", "wall_seconds"});
+  EXPECT_NEAR(result["E"].get<double>(), 30e9, 30e9 * 0.1);
+  const auto provenance = json("out/run.json");
+  expect_keys(provenance,
+              {"version", "commit", "command_line", "inputs", "seeds", "threads", "machine", "start", "end"});
+  EXPECT_EQ(provenance["threads"], 1);
+  EXPECT_EQ(provenance["seeds"][0], 1);
+  ASSERT_EQ(provenance["inputs"].size(), 2u);
+  EXPECT_EQ(provenance["inputs"][0]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_THAT(provenance["end"].get<std::string>(), testing::MatchesRegex("....-..-..T..:..:..Z"));
+  EXPECT_THAT(files(), IsSupersetOf({"out/report.html"}));
+  const auto report = spall({"report", "out"});
+  EXPECT_EQ(report.code, 0) << report.err;
+}
+
+TEST_F(VirtualTest, TensionLeavesItsKeysAndCurves) {
+  make_specimen();
+  const auto run = spall(test("tension", {"--velocity", "0.05 m/s", "--ends", "fixed", "--stop-at", "0.6"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto result = json("out/result.json");
+  expect_keys(result, {"peak_stress", "peak_strain", "E", "nu", "broken_links", "links", "damage", "steps",
+                       "time_step", "threads", "step_loop_seconds", "wall_seconds", "energy_balance_error",
+                       "unbalanced_force_ratio", "state_sha256"});
+  EXPECT_EQ(result["ends"], "fixed");
+  EXPECT_DOUBLE_EQ(result["velocity"].get<double>(), 0.05);
+  EXPECT_GT(result["peak_stress"].get<double>(), 1e6);
+  EXPECT_THAT(read("out/curves.csv"), testing::StartsWith("strain[-],stress[Pa]"));
+}
+
+TEST_F(VirtualTest, WrongInputsAreRefusedBeforeAnythingIsWritten) {
+  make_specimen();
+  EXPECT_THAT(refusal(2, test("tension", {"--velocity", "0.02"})),
+              AllOf(HasSubstr("--velocity"), HasSubstr("m/s")));
+  EXPECT_THAT(refusal(2, test("tension", {"--velocity", "-1 m/s"})), HasSubstr("not positive"));
+  EXPECT_THAT(refusal(2, test("tension", {"--velocity", "1 kg"})), HasSubstr("velocity"));
+  EXPECT_THAT(refusal(2, test("tension", {"--damping", "nan"})), HasSubstr("--damping"));
+  EXPECT_THAT(refusal(2, test("tension", {"--damping", "1.5"})), HasSubstr("--damping"));
+  EXPECT_THAT(refusal(2, test("tension", {"--stop-at", "2"})), HasSubstr("--stop-at"));
+  EXPECT_THAT(refusal(2, test("tension", {"--max-strain", "3 m"})), HasSubstr("--max-strain"));
+  EXPECT_THAT(refusal(2, test("tension", {"--axis", "w"})), HasSubstr("--axis"));
+  EXPECT_THAT(refusal(2, test("tension", {"--ends", "glued"})), HasSubstr("--ends"));
+  EXPECT_THAT(refusal(2, test("tension", {"--dampng", "0.1"})), HasSubstr("did you mean \"--damping\"?"));
+  write("card.toml", replaced(good_card, "\"30 GPa\"", "30"));
+  EXPECT_THAT(refusal(2, test("elastic")), AllOf(HasSubstr("card.toml:1: E"), HasSubstr("\"30 GPa\"")));
+  write("card.toml", good_card);
+  const std::string bytes = read("s1.h5");
+  write("s1.h5", bytes.substr(0, bytes.size() / 2));
+  EXPECT_THAT(refusal(2, test("compression")), HasSubstr("s1.h5"));
+  std::filesystem::remove(folder / "s1.h5");
+  EXPECT_THAT(refusal(2, test("compression")), HasSubstr("s1.h5"));
+}
+
+TEST_F(VirtualTest, AFolderThatCannotBeWrittenIsExitCode1) {
+  make_specimen();
+  write("out", "a file where the folder should be");
+  EXPECT_THAT(refusal(1, test("compression")), HasSubstr("out"));
+  EXPECT_THAT(refusal(1, {"test", "elastic", "--specimen", "s1.h5", "--card", "card.toml", "-o", "/proc/x"}),
+              HasSubstr("/proc/x"));
+}
+
+TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndWithoutAResult) {
+  make_specimen();
+  // Slow enough to be running for minutes.
+  const pid_t child = start(test("compression", {"--velocity", "0.0001 m/s"}));
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ::kill(child, SIGTERM);
+  const auto outcome = wait_for(child);
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("run the same command again"));
+  EXPECT_THAT(files(), Not(testing::Contains("out/result.json")));
+}
+
+TEST_F(VirtualTest, ReportNeedsAFinishedRun) {
+  EXPECT_THAT(refusal(2, {"report", "nowhere"}), HasSubstr("no such folder"));
+  EXPECT_THAT(refusal(2, {"report", "."}), HasSubstr("result.json"));
+  write("result.json", "{ half");
+  EXPECT_THAT(refusal(2, {"report", "."}), HasSubstr("not JSON"));
+}
