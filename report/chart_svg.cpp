@@ -59,16 +59,16 @@ std::string polyline(const std::vector<double>& x, const std::vector<double>& y,
 
 // The area between both edges of a band; points without both edges are left out.
 std::string area(const Series& series, const Scale& across, const Scale& up) {
-  std::string there, back;
-  for (std::size_t k = 0; k < series.x.size(); ++k) {
+  std::string path;
+  const auto edge = [&](std::size_t k, double value) {
     if (!usable(series.x[k], across.logarithmic) || !usable(series.y[k], up.logarithmic) ||
         !usable(series.upper[k], up.logarithmic))
-      continue;
-    const double px = across(series.x[k]);
-    there += fmt::format("{}{:.1f} {:.1f}", there.empty() ? "M" : "L", px, up(series.y[k]));
-    back = fmt::format("L{:.1f} {:.1f}", px, up(series.upper[k])) + back;
-  }
-  return there.empty() ? "" : there + back + "Z";
+      return;
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", across(series.x[k]), up(value));
+  };
+  for (std::size_t k = 0; k < series.x.size(); ++k) edge(k, series.y[k]);
+  for (std::size_t k = series.x.size(); k-- > 0;) edge(k, series.upper[k]);
+  return path.empty() ? "" : path + "Z";
 }
 
 // One marker; the shape goes with the colour, so that series can be told apart without it.
