@@ -1,0 +1,87 @@
+// The virtual laboratory of a fit: the same tests on several specimens, side by side on the cores, never twice.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libdem/core/progress.h"
+#include "libdem/material/material_card.h"
+#include "specimens/specimen.h"
+#include "specimens/virtual_tests/uniaxial.h"
+
+namespace calibrate {
+
+/// What a fit keeps of one virtual test.
+struct TestSummary {
+  double peak_stress = 0, peak_strain = 0;  ///< [Pa], [-]
+  double young_modulus = 0, poisson_ratio = 0;
+  double work_of_fracture = 0;  ///< [J/m2]
+  double unbalanced_force_ratio = 0, energy_balance_error = 0, damage = 0;
+  bool passed_peak = false;
+  std::int64_t steps = 0;
+  virtual_tests::Curve curve;
+};
+
+/// Results by the hash of everything that they depend on. Saved after every round of tests, so that a run that
+/// was stopped replays what it had and goes on: bit for bit, since a test's result does not depend on when it
+/// was computed.
+class TestJournal {
+ public:
+  TestJournal() = default;
+  /// `file` is written by `save`; read at once if `resume` and it exists. Throws InputError if it is no
+  /// journal.
+  TestJournal(std::filesystem::path file, bool resume);
+  const TestSummary* find(const std::string& key) const;
+  void add(const std::string& key, TestSummary summary);
+  void save() const;
+  std::size_t size() const { return summaries.size(); }
+
+ private:
+  std::filesystem::path file;
+  std::map<std::string, TestSummary> summaries;
+};
+
+/// How the tests of a case are run.
+struct TestProtocol {
+  virtual_tests::UniaxialOptions tension, compression;
+};
+
+struct Round {
+  bool tension = false, compression = false;
+};
+
+/// Summaries by specimen; empty for a test that was not asked for.
+struct RoundResult {
+  std::vector<TestSummary> tension, compression;
+};
+
+class TestBench {
+ public:
+  /// Keeps references: specimens and journal must outlive the bench.
+  TestBench(const std::vector<specimens::Specimen>& specimens, TestProtocol protocol, TestJournal& journal,
+            int threads);
+
+  /// Runs the tests of `round` with `card` on all specimens. Throws what a test throws, the first specimen's
+  /// first; results that were complete are in the journal by then.
+  RoundResult run(const dem::MaterialCard& card, Round round);
+
+  /// Tests that were run or replayed, and steps of those run.
+  long virtual_tests() const { return test_count; }
+  const std::vector<specimens::Specimen>& specimens() const { return all; }
+  const TestProtocol& test_protocol() const { return protocol; }
+
+ private:
+  std::string key(std::size_t specimen, const dem::MaterialCard& card,
+                  const virtual_tests::UniaxialOptions& options) const;
+
+  const std::vector<specimens::Specimen>& all;
+  std::vector<std::string> specimen_hashes;
+  TestProtocol protocol;
+  TestJournal& journal;
+  int threads;
+  long test_count = 0;
+};
+
+}  // namespace calibrate
