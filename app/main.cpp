@@ -55,7 +55,7 @@ int main(int count, char** values) {
       "Each verb has its own --help, with an example.");
   app::add_specimen(root, invocation);
   app::add_test(root, invocation);
-  // app::add_calibrate(root, invocation);
+  app::add_calibrate(root, invocation);
   app::add_card(root, invocation);
   app::add_report(root, invocation);
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/curve_table.h"
 #include "libdem/core/error.h"
 #include "report/page.h"
 
@@ -84,80 +85,27 @@ double number(const Json& object, const char* key) {
 report::Targets targets(const Json& list) {
   report::Targets table;
   for (const Json& target : list) {
-    const bool stress = number(target, "target") > 1e3;
-    const double factor = stress ? 1e-6 : 1;
-    table.rows.push_back({target.value("name", "target"), stress ? "MPa" : "",
-                          factor * number(target, "target"), factor * number(target, "achieved"),
+    // Shown in the unit that the run names: value / scale.
+    const double scale = target.value("scale", 1.0);
+    table.rows.push_back({target.value("words", target.value("name", "target")), target.value("unit", ""),
+                          number(target, "target") / scale, number(target, "achieved") / scale,
                           number(target, "rel_error"), number(target, "tolerance"),
                           target.value("met", false)});
   }
   return table;
 }
 
-struct Column {
-  std::string name, unit;
-  std::vector<double> values;
-};
-
-/// A CSV of ours: "strain[-],stress[Pa]" and numbers below. Columns of text become NaN.
-std::vector<Column> read_columns(const std::filesystem::path& file) {
-  std::vector<Column> columns;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream cells(line);
-    const bool header = columns.empty();
-    std::size_t k = 0;
-    for (std::string cell; std::getline(cells, cell, ','); ++k) {
-      if (header) {
-        const auto bracket = cell.find('[');
-        columns.push_back({cell.substr(0, bracket), "", {}});
-        if (bracket != std::string::npos)
-          columns.back().unit = cell.substr(bracket + 1, cell.find(']') - bracket - 1);
-      } else if (k < columns.size()) {
-        char* end = nullptr;
-        const double value = std::strtod(cell.c_str(), &end);
-        columns[k].values.push_back(end == cell.c_str() ? std::numeric_limits<double>::quiet_NaN() : value);
-      }
-    }
-    if (!header)
-      for (; k < columns.size(); ++k) columns[k].values.push_back(std::numeric_limits<double>::quiet_NaN());
+/// A list of objects as a table: one row each, the columns of the first one.
+report::Table rows_of(const Json& list) {
+  report::Table table;
+  for (const auto& [key, value] : list.front().items())
+    if (value.is_primitive() && key != "sha256") table.columns.push_back(key);
+  for (const Json& item : list) {
+    table.rows.emplace_back();
+    for (const std::string& key : table.columns)
+      table.rows.back().push_back(item.contains(key) ? words(key, item[key]) : "");
   }
-  for (Column& column : columns) {
-    const bool strain = column.unit == "-" && column.name.find("strain") != std::string::npos;
-    const double factor = column.unit == "Pa" ? 1e-6 : strain ? 1e3 : 1;
-    if (column.unit == "Pa") column.unit = "MPa";
-    if (strain) column.unit = "permil";
-    if (column.unit == "-") column.unit.clear();
-    for (double& value : column.values) value *= factor;
-  }
-  return columns;
-}
-
-/// Each column over the first one; columns of one unit share a chart. Stress comes first.
-report::Section curves(const std::filesystem::path& file) {
-  report::Section section{"Curves", {}};
-  const std::vector<Column> columns = read_columns(file);
-  std::vector<std::string> units;
-  for (std::size_t k = 1; k < columns.size(); ++k)
-    if (std::find(units.begin(), units.end(), columns[k].unit) == units.end()) units.push_back(columns[k].unit);
-  for (const std::string& unit : units) {
-    report::Chart chart;
-    chart.x = {columns[0].name, columns[0].unit, false, {}, {}};
-    chart.y.unit = unit;
-    for (std::size_t k = 1; k < columns.size(); ++k) {
-      if (columns[k].unit != unit) continue;
-      chart.y.title += (chart.y.title.empty() ? "" : ", ") + columns[k].name;
-      report::Series series;
-      series.name = columns[k].name;
-      series.x = columns[0].values;
-      series.y = columns[k].values;
-      chart.series.push_back(std::move(series));
-    }
-    chart.title = chart.y.title + " over " + columns[0].name;
-    section.blocks.emplace_back(std::move(chart));
-  }
-  return section;
+  return table;
 }
 
 std::vector<std::pair<std::string, std::string>> provenance(const Json& run) {
@@ -169,7 +117,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const Json& run) {
     } else if (value.is_array()) {
       std::string line;
       for (const Json& item : value)
-        line += (line.empty() ? "" : " ") + (item.is_string() ? item.get<std::string>() : item.dump());
+        line.append(line.empty() ? "" : " ").append(item.is_string() ? item.get<std::string>() : item.dump());
       rows.emplace_back(key, line);
     } else if (value.is_object()) {
       for (const auto& [name, item] : value.items()) rows.emplace_back(key + " " + name, words(name, item));
@@ -203,9 +151,19 @@ void write_report(const std::filesystem::path& folder) {
     page.sections.push_back({"Material card", {key_values(result["card"])}});
   numbers.blocks.emplace_back(key_values(result));
   page.sections.insert(page.sections.begin(), std::move(numbers));
+  for (const auto& [key, title] :
+       {std::pair("specimens", "Specimens"), std::pair("parameters", "What the data determine")})
+    if (const auto list = result.find(key); list != result.end() && list->is_array() && !list->empty())
+      page.sections.push_back({title, {rows_of(*list)}});
+  if (const auto list = result.find("warnings"); list != result.end() && list->is_array() && !list->empty()) {
+    report::Section section{"Warnings", {}};
+    for (const Json& warning : *list) section.blocks.emplace_back(report::Text{warning.get<std::string>()});
+    page.sections.push_back(std::move(section));
+  }
+  report::Section drawn{"Curves", {}};
   if (std::filesystem::exists(folder / "curves.csv"))
-    if (report::Section section = curves(folder / "curves.csv"); !section.blocks.empty())
-      page.sections.push_back(std::move(section));
+    for (report::Chart& chart : read_charts(folder / "curves.csv")) drawn.blocks.emplace_back(std::move(chart));
+  if (!drawn.blocks.empty()) page.sections.push_back(std::move(drawn));
   if (std::filesystem::exists(folder / "run.json"))
     page.provenance = provenance(read_json(folder / "run.json"));
   report::write_page(folder / "report.html", page);

@@ -136,8 +136,9 @@ int run_uniaxial(const TestOptions& options, const Invocation& invocation, virtu
     try {
       return virtual_tests::run_uniaxial(inputs.specimen, inputs.card, asked, console.progress());
     } catch (const dem::Interrupted& stop) {
-      throw dem::Interrupted(fmt::format("{}; nothing was written in {}: run the same command again to start anew",
-                                         stop.what(), options.output));
+      throw dem::Interrupted(
+          fmt::format("{}; nothing was written in {}: run the same command again to start anew", stop.what(),
+                      options.output));
     }
   }();
 

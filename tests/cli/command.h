@@ -46,12 +46,12 @@ class Command : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
-  /// Starts the program without waiting for it; its output goes to files in a hidden folder.
-  pid_t start(const std::vector<std::string>& arguments) const {
+  /// Starts `program` without waiting for it; its output goes to files in a hidden folder.
+  pid_t start_program(const std::string& program, const std::vector<std::string>& arguments) const {
     const auto aside = folder / ".said";
     std::filesystem::create_directories(aside);
     // The shell of posix_spawn has no working folder (before glibc 2.29), so `env -C` changes it.
-    std::vector<std::string> words{"env", "-C", folder.string(), SPALL_BINARY};
+    std::vector<std::string> words{"env", "-C", folder.string(), program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> values;
     for (std::string& word : words) values.push_back(word.data());
@@ -68,6 +68,10 @@ class Command : public testing::Test {
     return child;
   }
 
+  pid_t start(const std::vector<std::string>& arguments) const {
+    return start_program(SPALL_BINARY, arguments);
+  }
+
   Outcome wait_for(pid_t child) const {
     int status = 0;
     EXPECT_EQ(::waitpid(child, &status, 0), child);
@@ -79,6 +83,8 @@ class Command : public testing::Test {
   }
 
   Outcome spall(const std::vector<std::string>& arguments) const { return wait_for(start(arguments)); }
+
+  Outcome shell(const std::string& command) const { return wait_for(start_program("sh", {"-c", command})); }
 
   /// Runs it and expects this exit code, nothing on standard output, and one line on standard error, which is
   /// returned.

@@ -1,0 +1,98 @@
+// spall calibrate
+#include <fmt/format.h>
+
+#include "app/calibrate_output.h"
+#include "app/console.h"
+#include "app/output.h"
+#include "app/report_page.h"
+#include "app/verbs.h"
+#include "calibrate/pipeline.h"
+#include "libdem/core/atomic_file.h"
+#include "libdem/core/error.h"
+
+namespace app {
+namespace {
+
+struct CalibrateOptions {
+  CommonOptions common;
+  std::string file, output;
+  bool resume = false;
+};
+
+void tell(Console& console, const calibrate::CalibrationResult& found) {
+  for (const calibrate::TargetResult& result : found.targets) {
+    const calibrate::Display display = calibrate::display(result.target.quantity);
+    const char* verdict = result.met() ? "met" : "MISSED";
+    const std::string unit = display.unit == "-" ? "" : fmt::format("{} ", display.unit);
+    if (calibrate::is_curve(result.target.quantity))
+      console.say(fmt::format("  {:<28} {:.2g}% of the peak off, allowed {:.2g}%: {}", display.words,
+                              100 * result.achieved, 100 * result.target.tolerance, verdict));
+    else
+      console.say(fmt::format("  {:<28} {:.4g} {}against {:.4g} ({:+.1f}%, allowed {:.2g}%): {}", display.words,
+                              result.achieved / display.scale, unit, result.target.value / display.scale,
+                              100 * result.relative_error(), 100 * result.target.tolerance, verdict));
+  }
+  for (const std::string& warning : found.warnings) console.remark("warning: " + warning);
+}
+
+calibrate::CalibrationResult run(const CalibrateOptions& options, const calibrate::CalibrationCase& wanted,
+                                 calibrate::TestJournal& journal, Console& console) {
+  try {
+    return calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
+  } catch (const dem::Interrupted& stop) {
+    journal.save();
+    throw dem::Interrupted(fmt::format(
+        "{}; {} virtual tests are kept in {}/checkpoint.h5: go on with spall calibrate {} -o {} --resume",
+        stop.what(), journal.size(), options.output, options.file, options.output));
+  }
+}
+
+int calibrate_case(const CalibrateOptions& options, const Invocation& invocation) {
+  use_threads(options.common);
+  const calibrate::CalibrationCase wanted = calibrate::read_case(options.file);
+  RunFolder folder(options.output, invocation, options.common);
+  for (const std::filesystem::path& input : wanted.inputs) folder.add_input(input);
+  for (const std::uint64_t seed : wanted.fit_seeds) folder.add_seed(seed);
+  for (const std::uint64_t seed : wanted.check_seeds) folder.add_seed(seed);
+  calibrate::TestJournal journal(folder.file("checkpoint.h5"), options.resume);
+  Console console(options.common);
+  if (options.resume && journal.size() == 0)
+    console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
+                               folder.file("checkpoint.h5").string()));
+
+  const calibrate::CalibrationResult found = run(options, wanted, journal, console);
+  const nlohmann::ordered_json result = result_of(wanted, found);
+  dem::write_file_atomically(folder.file("card.toml"), dem::to_toml(found.card));
+  dem::write_file_atomically(folder.file("curves.csv"), curves_csv(wanted, found));
+  folder.write(result);
+  write_report(folder.path());
+  console.say(fmt::format("{}: {} virtual tests in {}", wanted.name, found.virtual_tests,
+                          duration(found.wall_seconds)));
+  tell(console, found);
+  console.say(fmt::format("card:   {}", folder.file("card.toml").string()));
+  console.say(fmt::format("report: {}", folder.file("report.html").string()));
+  console.result(result.dump(2));
+  return found.complete() ? done : tolerance_missed;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& root, Invocation& invocation) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* verb = add_verb(root, "calibrate", "Fit a material card to targets and laboratory curves",
+                            "printf '[targets]\\nE = \"30 GPa\"\\nft = \"3 MPa\"\\n' > case.toml\n"
+                            "printf '[fixed]\\nzeta = 5\\nCo = \"8 MPa\"\\n' >> case.toml\n"
+                            "printf '[specimen]\\nsize = \"0.4x0.2x0.2 m\"\\nelements = 1400\\n' >> case.toml\n"
+                            "spall calibrate case.toml -o out/fit",
+                            options->common);
+  verb->add_option("case", options->file, "Case (TOML): targets, curves, specimens")->required();
+  verb->add_option("-o,--output", options->output,
+                   "Folder for card.toml, result.json, run.json, curves.csv, report.html")
+      ->required();
+  verb->add_flag("--resume", options->resume, "Go on from the checkpoint in the output folder");
+  verb->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return calibrate_case(*options, invocation); };
+  });
+}
+
+}  // namespace app

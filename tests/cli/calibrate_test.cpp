@@ -1,0 +1,98 @@
+// spall calibrate: what it leaves, how it goes on after a signal, and cases that it refuses.
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/cli/command.h"
+
+using cli::replaced;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+class Calibrate : public cli::Command {
+ protected:
+  const std::string good_case = R"(name = "small"
+[targets]
+E = "30 GPa"
+nu = 0.2
+ft = "3 MPa"
+[fixed]
+zeta = 5
+Co = "8 MPa"
+[specimen]
+size = "0.4x0.2x0.2 m"
+elements = 1400
+fit_seeds = [1]
+check_seeds = [2]
+)";
+  nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(read(name)); }
+};
+
+TEST_F(Calibrate, LeavesCardResultCurvesAndReport) {
+  write("case.toml", good_case);
+  const auto run = spall({"calibrate", "case.toml", "-o", "out", "--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto result = json("out/result.json");
+  EXPECT_EQ(nlohmann::json::parse(run.out), result);
+  for (const char* key : {"E", "nu", "T", "Co", "zeta", "phi_i", "phi_c", "alpha", "beta", "gamma"})
+    EXPECT_TRUE(result["card"].contains(key)) << key;
+  for (const auto& target : result["targets"])
+    for (const char* key : {"name", "target", "achieved", "rel_error", "tolerance", "met"})
+      EXPECT_TRUE(target.contains(key)) << key;
+  for (const char* key : {"curves", "virtual_tests", "wall_seconds", "specimens"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  EXPECT_THAT(files(), IsSupersetOf({"out/card.toml", "out/curves.csv", "out/report.html", "out/run.json",
+                                     "out/checkpoint.h5"}));
+  // The card comes back with the bits of the result.
+  const auto card = spall({"card", "show", "out/card.toml", "--json"});
+  ASSERT_EQ(card.code, 0) << card.err;
+  const auto shown = nlohmann::json::parse(card.out);
+  for (const char* key : {"E", "nu", "T", "Co", "zeta", "alpha", "beta", "gamma"})
+    EXPECT_EQ(shown[key].get<double>(), result["card"][key].get<double>()) << key;
+  EXPECT_EQ(json("out/run.json")["seeds"], (nlohmann::json{1, 2}));
+}
+
+TEST_F(Calibrate, ATargetOutOfReachIsExitCode4AndTheCardSaysSo) {
+  // The bound holds T far below what 3 MPa needs.
+  write("case.toml", replaced(good_case, "zeta = 5", "zeta = 5\nT = \"1 MPa\""));
+  const auto run = spall({"calibrate", "case.toml", "-o", "out"});
+  EXPECT_EQ(run.code, 4) << run.err;
+  EXPECT_THAT(read("out/card.toml"), HasSubstr("MISSED"));
+  EXPECT_THAT(files(), IsSupersetOf({"out/result.json"}));
+}
+
+TEST_F(Calibrate, GoesOnAfterASignalToTheSameCard) {
+  write("case.toml", good_case);
+  ASSERT_EQ(spall({"calibrate", "case.toml", "-o", "whole", "--quiet"}).code, 0);
+  const pid_t child = start({"calibrate", "case.toml", "-o", "out"});
+  for (int k = 0; k < 200 && !std::filesystem::exists(folder / "out/checkpoint.h5"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ::kill(child, SIGINT);
+  const auto stopped = wait_for(child);
+  ASSERT_EQ(stopped.code, 3) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("spall calibrate case.toml -o out --resume"));
+  EXPECT_THAT(files(), Not(testing::Contains("out/result.json")));
+  const auto resumed = spall({"calibrate", "case.toml", "-o", "out", "--resume"});
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(read("out/card.toml"), read("whole/card.toml"));
+}
+
+TEST_F(Calibrate, WrongCasesAreRefusedBeforeAnythingIsWritten) {
+  const auto refused = [&](const std::string& what, const std::string& by) {
+    write("case.toml", replaced(good_case, what, by));
+    return refusal(2, {"calibrate", "case.toml", "-o", "out"});
+  };
+  EXPECT_THAT(refused("\"30 GPa\"", "30"), AllOf(HasSubstr("case.toml:3: targets.E"), HasSubstr("\"30 GPa\"")));
+  EXPECT_THAT(refused("ft =", "ftt ="), AllOf(HasSubstr("unknown key"), HasSubstr("did you mean \"ft\"?")));
+  EXPECT_THAT(refused("[specimen]", "[specimens]"), HasSubstr("did you mean \"specimen\"?"));
+  EXPECT_THAT(refused("\"3 MPa\"", "\"3 m\""), HasSubstr("targets.ft"));
+  EXPECT_THAT(refused("1400", "14"), HasSubstr("elements"));
+  EXPECT_THAT(refusal(2, {"calibrate", "none.toml", "-o", "out"}), HasSubstr("none.toml"));
+  write("case.toml", good_case);
+  write("out", "a file");
+  EXPECT_THAT(refusal(1, {"calibrate", "case.toml", "-o", "out"}), HasSubstr("out"));
+}
