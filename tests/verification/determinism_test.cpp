@@ -1,0 +1,80 @@
+// Same input, same bits: on any number of threads, twice over. And the same physics on any instruction set.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "libdem/core/instructions.h"
+#include "specimens/packing.h"
+#include "specimens/virtual_tests/uniaxial.h"
+
+namespace {
+
+virtual_tests::UniaxialResult small_tension(int threads) {
+  static const specimens::Specimen specimen = [] {
+    specimens::PackingOptions packing;
+    packing.size = dem::Vec3(0.25, 0.25, 0.25);
+    packing.elements = 1350;
+    packing.threads = 1;
+    return specimens::make_specimen(packing);
+  }();
+  virtual_tests::UniaxialOptions options;
+  options.axis = 0;
+  options.threads = threads;
+  options.max_strain = 2e-4;  // past the peak
+  return virtual_tests::run_uniaxial(specimen, dem::MaterialCard{}, options);
+}
+
+/// Runs this program's test of that name again on another instruction set; returns what it prints after "peak
+/// ".
+double peak_on(const std::string& set, const std::string& test) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string command =
+      "SPALL_TEST_PRINTS=1 SPALL_INSTRUCTIONS=" + set + " '" + program + "' --gtest_filter=" + test;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return 0;
+  std::array<char, 256> line{};
+  double peak = 0;
+  std::string ran;
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
+    const std::string text(line.data());
+    if (text.starts_with("peak ")) peak = std::strtod(text.c_str() + 5, nullptr);
+    if (text.starts_with("set ")) ran = text.substr(4, text.size() - 5);
+  }
+  EXPECT_EQ(pclose(pipe), 0);
+  EXPECT_EQ(ran, set);
+  return peak;
+}
+
+}  // namespace
+
+TEST(Determinism, StateAfterATensionTestIsTheSameOnAnyNumberOfThreadsAndTwice) {
+  const auto once = small_tension(1);
+  EXPECT_GT(once.broken_links, 50u);
+  EXPECT_EQ(once.state_sha256.size(), 64u);
+  for (const int threads : {1, 2, 3, 8}) {
+    const auto again = small_tension(threads);
+    EXPECT_EQ(again.state_sha256, once.state_sha256) << threads << " threads";
+    EXPECT_EQ(again.peak_stress, once.peak_stress) << threads << " threads";
+    EXPECT_EQ(again.energy.damping, once.energy.damping) << threads << " threads";
+    EXPECT_EQ(again.energy.sliding, once.energy.sliding) << threads << " threads";
+  }
+}
+
+TEST(Determinism, InstructionSetsAgreeOnThePeakStress) {
+  if (std::getenv("SPALL_TEST_PRINTS") != nullptr) {
+    std::printf("set %s\npeak %.17g\n", std::string(name_of(dem::instructions())).c_str(),
+                small_tension(1).peak_stress);
+    return;
+  }
+  const std::string test = "Determinism.InstructionSetsAgreeOnThePeakStress";
+  const double baseline = peak_on("baseline", test);
+  ASSERT_GT(baseline, 1e6);
+  for (const auto set : {dem::Instructions::avx2, dem::Instructions::avx512})
+    if (set <= dem::instructions()) {
+      EXPECT_NEAR(peak_on(std::string(name_of(set)), test), baseline, 1e-3 * baseline) << name_of(set);
+    }
+}
