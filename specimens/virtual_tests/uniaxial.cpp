@@ -118,6 +118,7 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
     const dem::StepSums sums = dem::advance(assembly, room, step);
     ledger.sliding += sums.sliding;
     ledger.damping += sums.damped;
+    ledger.kinetic = sums.kinetic;
     const double low = platens.low_reaction(assembly.particles),
                  high = platens.high_reaction(assembly.particles);
     // The platens close at half the speed each; their work is the mean reaction over the step times the way.
@@ -148,7 +149,6 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
     if (windows % 4 == 0) {
       const dem::PairEnergy links = dem::pair_energy(law, assembly.particles, assembly.links);
       const dem::PairEnergy contacts = dem::pair_energy(law, assembly.particles, assembly.contacts);
-      ledger.kinetic = sums.kinetic;
       ledger.elastic = links.elastic + contacts.elastic;
       ledger.softening = links.softening;
       worst_imbalance = std::max(worst_imbalance, std::abs(ledger.imbalance()));
