@@ -1,0 +1,214 @@
+#include "libdem/run/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "libdem/core/error.h"
+#include "libdem/core/sha256.h"
+#include "libdem/io/hdf5.h"
+
+namespace dem {
+namespace {
+
+constexpr const char* format = "spall-checkpoint";
+constexpr int version = 1;
+constexpr const char* start_anew = "go on with what it was made with, or start anew without it";
+
+constexpr std::size_t numbers_per_row = sizeof(Kinematics) / sizeof(double);
+
+/// Writes columns and hashes them on the way, names and lengths too.
+class ContentWriter {
+ public:
+  explicit ContentWriter(Hdf5File& out) : file(out) {}
+  template <class T>
+  void put(const std::string& name, const T* values, std::size_t count) {
+    file.write(name, std::span<const T>(values, count));
+    hash.add(name.data(), name.size()).add(&count, sizeof count).add(values, count * sizeof(T));
+  }
+  template <class Values>
+  void put(const std::string& name, const Values& values) {
+    put(name, values.data(), values.size());
+  }
+  std::string sha256() { return hash.hex(); }
+
+ private:
+  Hdf5File& file;
+  Sha256 hash;
+};
+
+/// Reads the same columns in the same order, and hashes them alike.
+class ContentReader {
+ public:
+  explicit ContentReader(const Hdf5File& in) : file(in) {}
+  template <class T>
+  std::vector<T> get(const std::string& name, std::size_t length = Hdf5File::any) {
+    std::vector<T> values = file.read<T>(name, 0, length);
+    const std::size_t count = values.size();
+    hash.add(name.data(), name.size()).add(&count, sizeof count).add(values.data(), count * sizeof(T));
+    return values;
+  }
+  std::string sha256() { return hash.hex(); }
+
+ private:
+  const Hdf5File& file;
+  Sha256 hash;
+};
+
+/// Which degrees of freedom are prescribed, six per element: where the inverse mass is zero.
+std::vector<std::uint8_t> held_dofs(const Particles& particles) {
+  std::vector<std::uint8_t> held;
+  held.reserve(6 * particles.count);
+  for (const SixRow& row : particles.inverse_mass)
+    for (int dof = 0; dof < 6; ++dof) held.push_back(row.value[dof] == 0 ? 1 : 0);
+  return held;
+}
+
+std::vector<double> flat(std::span<const Vec3> vectors) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors) numbers.insert(numbers.end(), {v.x(), v.y(), v.z()});
+  return numbers;
+}
+
+std::vector<Vec3> vectors_of(std::span<const double> numbers) {
+  std::vector<Vec3> vectors;
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+    vectors.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+  return vectors;
+}
+
+/// The history of pairs by name: the columns of `Links` that a step changes.
+constexpr std::array<std::pair<const char*, Column<double> Links::*>, 4> history{
+    {{"max_strain", &Links::max_strain},
+     {"shear_x", &Links::shear_x},
+     {"shear_y", &Links::shear_y},
+     {"shear_z", &Links::shear_z}}};
+
+template <class T>
+Column<T> column(const std::vector<T>& values) {
+  return Column<T>(values.begin(), values.end());
+}
+
+void put_contacts(ContentWriter& out, const Links& contacts) {
+  const std::vector<std::uint64_t> count{contacts.count};
+  out.put("contacts/count", count);
+  out.put("contacts/a", contacts.a);
+  out.put("contacts/b", contacts.b);
+  out.put("contacts/inverse_initial_distance", contacts.inverse_initial_distance);
+  out.put("contacts/area", contacts.area);
+  for (const auto& [name, member] : history) out.put(fmt::format("contacts/{}", name), contacts.*member);
+}
+
+Links get_contacts(ContentReader& in) {
+  Links contacts;
+  contacts.count = in.get<std::uint64_t>("contacts/count", 1)[0];
+  contacts.a = column(in.get<std::int32_t>("contacts/a"));
+  const std::size_t padded = contacts.a.size();
+  contacts.b = column(in.get<std::int32_t>("contacts/b", padded));
+  contacts.inverse_initial_distance = column(in.get<double>("contacts/inverse_initial_distance", padded));
+  contacts.area = column(in.get<double>("contacts/area", padded));
+  for (const auto& [name, member] : history)
+    contacts.*member = column(in.get<double>(fmt::format("contacts/{}", name), padded));
+  return contacts;
+}
+
+void put_state(ContentWriter& out, const Assembly& assembly, const StepRoom& room) {
+  const Particles& particles = assembly.particles;
+  out.put("particles/kinematics", &particles.kinematics[0].x, numbers_per_row * particles.count);
+  out.put("particles/rotation", flat(particles.rotation));
+  out.put("particles/held", held_dofs(particles));
+  for (const auto& [name, member] : history) out.put(fmt::format("links/{}", name), assembly.links.*member);
+  put_contacts(out, assembly.contacts);
+  const ContactDetector::Memory memory = room.detector.memory();
+  out.put("detector/built_at", flat(memory.built_at));
+  out.put("detector/moved_at_most", std::vector{memory.moved_at_most});
+  out.put("max_speed", std::vector{room.max_speed});
+}
+
+/// What `put_state` wrote, read but not yet believed.
+struct StateRead {
+  std::vector<double> kinematics, rotation;
+  std::vector<std::uint8_t> held;
+  std::array<Column<double>, history.size()> link_history;
+  Links contacts;
+  ContactDetector::Memory memory;
+  double max_speed = 0;
+};
+
+StateRead get_state(ContentReader& in, const Assembly& assembly) {
+  StateRead read;
+  const std::size_t elements = assembly.particles.count;
+  read.kinematics = in.get<double>("particles/kinematics", numbers_per_row * elements);
+  read.rotation = in.get<double>("particles/rotation", 3 * elements);
+  read.held = in.get<std::uint8_t>("particles/held", 6 * elements);
+  for (std::size_t k = 0; k < history.size(); ++k)
+    read.link_history[k] =
+        column(in.get<double>(fmt::format("links/{}", history[k].first), assembly.links.padded()));
+  read.contacts = get_contacts(in);
+  read.memory.built_at = vectors_of(in.get<double>("detector/built_at"));
+  read.memory.moved_at_most = in.get<double>("detector/moved_at_most", 1)[0];
+  read.max_speed = in.get<double>("max_speed", 1)[0];
+  return read;
+}
+
+void apply(StateRead&& read, Assembly& assembly, StepRoom& room) {
+  Particles& particles = assembly.particles;
+  for (std::size_t i = 0; i < particles.count; ++i)
+    for (int dof = 0; dof < 6; ++dof) {
+      if (read.held[6 * i + static_cast<std::size_t>(dof)] != 0)
+        particles.prescribe(i, dof, 0);
+      else
+        particles.release(i, dof);
+    }
+  std::copy(read.kinematics.begin(), read.kinematics.end(), &particles.kinematics[0].x);
+  particles.rotation = vectors_of(read.rotation);
+  for (std::size_t k = 0; k < history.size(); ++k)
+    assembly.links.*history[k].second = std::move(read.link_history[k]);
+  assembly.contacts = std::move(read.contacts);
+  room.detector.restore(std::move(read.memory));
+  room.max_speed = read.max_speed;
+  room.contact_incidence = Incidence(assembly.contacts, particles.count);
+}
+
+/// Refuses a checkpoint of something else, and names what differs.
+void require_same(const Hdf5File& file, const Belonging& belongs_to) {
+  for (const auto& [what, sha256] : belongs_to)
+    if (!file.has_attribute("belongs_to", what) || file.text_attribute("belongs_to", what) != sha256)
+      throw InputError(file.path().string(), fmt::format("belongs to a run with another {}", what), start_anew);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, const Assembly& assembly,
+                      const StepRoom& room, const NamedNumbers& numbers) {
+  create_spall_file(path, format, version, [&](Hdf5File& file) {
+    file.make_group("belongs_to");
+    for (const auto& [what, sha256] : belongs_to) file.set_attribute("belongs_to", what, sha256);
+    file.make_group("numbers");
+    ContentWriter out(file);
+    put_state(out, assembly, room);
+    for (const auto& [name, values] : numbers) out.put("numbers/" + name, values);
+    file.set_attribute("/", "sha256", out.sha256());
+  });
+}
+
+NamedNumbers read_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, Assembly& assembly,
+                             StepRoom& room) {
+  const Hdf5File file = open_spall_file(path, format, version);
+  require_same(file, belongs_to);
+  ContentReader in(file);
+  StateRead state = get_state(in, assembly);
+  NamedNumbers numbers;
+  for (const std::string& name : file.names_in("numbers")) numbers[name] = in.get<double>("numbers/" + name);
+  if (in.sha256() != file.text_attribute("/", "sha256"))
+    throw InputError(path.string(), "is damaged: its content does not have the SHA-256 that it names",
+                     "start anew without it");
+  apply(std::move(state), assembly, room);
+  return numbers;
+}
+
+}  // namespace dem

@@ -1,0 +1,140 @@
+#include "specimens/virtual_tests/uniaxial_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdem/core/error.h"
+#include "libdem/probe/damage.h"
+
+namespace virtual_tests {
+namespace {
+
+/// Elastic energy and softening are functions of the state: read, not summed.
+void read_pair_energies(dem::EnergyLedger& ledger, const dem::Assembly& assembly) {
+  const dem::PairEnergy links = dem::pair_energy(assembly.law, assembly.particles, assembly.links);
+  const dem::PairEnergy contacts = dem::pair_energy(assembly.law, assembly.particles, assembly.contacts);
+  ledger.elastic = links.elastic + contacts.elastic;
+  ledger.softening = links.softening;
+}
+
+/// Reads the gauge at the window's middle: a stress sampled later than its strain would bias the modulus.
+void read_gauge(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Particles& particles) {
+  const dem::AxialStrains strain = plan.gauge.measure(particles);
+  const auto a = static_cast<std::size_t>(plan.axis);
+  record.point.strain = plan.strain_after(record.steps);
+  record.point.strain_axial = -plan.sign * strain[a];
+  record.point.strain_lateral = -plan.sign * 0.5 * (strain[(a + 1) % 3] + strain[(a + 2) % 3]);
+}
+
+LinkState state_of(const dem::LinkLaw& law, double max_strain) {
+  if (law.is_broken(max_strain)) return LinkState::broken;
+  return max_strain > law.yield_strain() ? LinkState::softening : LinkState::intact;
+}
+
+void read_fields(UniaxialResult& result, const dem::Assembly& assembly) {
+  const dem::Particles& particles = assembly.particles;
+  const dem::Links& links = assembly.links;
+  result.damage = dem::element_damage(assembly.law, links, particles.count);
+  for (std::size_t i = 0; i < particles.count; ++i) result.displacement.push_back(particles.displacement(i));
+  for (std::size_t k = 0; k < links.count; ++k) {
+    const dem::Vec3 a = particles.kinematics[static_cast<std::size_t>(links.a[k])].position();
+    const dem::Vec3 b = particles.kinematics[static_cast<std::size_t>(links.b[k])].position();
+    result.link_strain.push_back((b - a).norm() * links.inverse_initial_distance[k] - 1);
+    result.link_state.push_back(state_of(assembly.law, links.max_strain[k]));
+  }
+}
+
+}  // namespace
+
+void book_step(UniaxialRecord& record, const UniaxialPlan& plan, const dem::StepSums& sums,
+               const dem::Particles& particles) {
+  ++record.steps;
+  dem::EnergyLedger& ledger = record.ledger;
+  ledger.sliding += sums.sliding;
+  ledger.damping += sums.damped;
+  ledger.kinetic = sums.kinetic;
+  const double low = plan.platens.low_reaction(particles), high = plan.platens.high_reaction(particles);
+  // The platens close at half the speed each; their work is the mean reaction over the step times the way.
+  const double reaction = plan.sign * 0.5 * (low + high);
+  ledger.external += 0.5 * (reaction + record.previous_reaction) * plan.velocity * plan.step.time_step;
+  record.previous_reaction = reaction;
+  record.low += plan.sign * low;
+  record.high += plan.sign * high;
+  ++record.window_steps;
+  if (record.window_steps == plan.half_window + 1) read_gauge(record, plan, particles);
+}
+
+bool window_is_full(const UniaxialRecord& record, const UniaxialPlan& plan) {
+  return record.window_steps == plan.window_steps();
+}
+
+void close_window(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Assembly& assembly) {
+  CurvePoint& point = record.point;
+  const double n = static_cast<double>(plan.window_steps()) * plan.section;
+  point.stress = 0.5 * (record.low + record.high) / n;
+  point.unbalanced = std::abs(record.low - record.high) /
+                     std::max(std::abs(record.low + record.high) / 2, 1e-3 * plan.expected_strength * n);
+  record.low = record.high = 0;
+  record.window_steps = 0;
+  if (!std::isfinite(point.stress) || !std::isfinite(point.strain_axial))
+    throw dem::RunError(
+        fmt::format("the {} test diverged at step {}: the stress is no number; lower the time step fraction",
+                    name_of(plan.loading), record.steps));
+  const std::size_t windows = record.curve.size();
+  if (windows % 4 == 0) {  // these pass over all links
+    read_pair_energies(record.ledger, assembly);
+    record.worst_imbalance = std::max(record.worst_imbalance, std::abs(record.ledger.imbalance()));
+    point.broken = static_cast<double>(dem::broken_links(assembly.law, assembly.links)) /
+                   static_cast<double>(assembly.links.count);
+  }
+  record.curve.push_back(point);
+  if (point.stress > record.peak) record.peak = point.stress, record.peak_index = windows;
+}
+
+bool has_fallen(const UniaxialRecord& record, const UniaxialPlan& plan) {
+  const CurvePoint& last = record.curve.back();
+  return last.stress < plan.stop_at * record.peak &&
+         last.strain > 1.02 * record.curve[record.peak_index].strain && record.peak > plan.least_peak;
+}
+
+bool is_over(const UniaxialRecord& record, const UniaxialPlan& plan) {
+  return has_fallen(record, plan) || record.curve.back().strain >= plan.max_strain;
+}
+
+UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, const dem::Assembly& assembly,
+                        const dem::StepRoom& room) {
+  UniaxialResult result;
+  result.step_loop_seconds = record.loop.seconds();
+  read_pair_energies(record.ledger, assembly);
+  result.energy = record.ledger;
+  result.energy_balance_error = record.worst_imbalance / std::max(std::abs(record.ledger.external), 1e-300);
+  result.peak_stress = record.peak;
+  result.peak_strain = record.curve[record.peak_index].strain;
+  const double last = record.curve.back().stress;
+  result.passed_peak = has_fallen(record, plan) || record.peak < 0.95 * last || last < 0.95 * record.peak;
+  for (std::size_t k = 0; k <= record.peak_index; ++k)
+    if (record.curve[k].stress > 0.5 * record.peak)
+      result.unbalanced_force_ratio = std::max(result.unbalanced_force_ratio, record.curve[k].unbalanced);
+  const Moduli moduli = moduli_of(record.curve);
+  result.young_modulus = moduli.young_modulus;
+  result.poisson_ratio = moduli.poisson_ratio;
+  result.work_of_fracture = work_of_fracture(record.curve, plan.platens.gauge_length, moduli.young_modulus);
+  result.curve = std::move(record.curve);
+
+  result.steps = record.steps;
+  result.time_step = plan.step.time_step;
+  result.critical_time_step = plan.critical_time_step;
+  result.velocity = plan.velocity;
+  result.links = assembly.links.count;
+  result.broken_links = dem::broken_links(assembly.law, assembly.links);
+  result.contacts = assembly.contacts.count;
+  read_fields(result, assembly);
+  result.detector_rebuilds = record.rebuilds + room.detector.rebuilds();
+  result.state_sha256 = dem::state_sha256(assembly);
+  result.wall_seconds = record.wall.seconds();
+  return result;
+}
+
+}  // namespace virtual_tests
