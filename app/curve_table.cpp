@@ -5,7 +5,6 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
-#include <string>
 
 namespace app {
 namespace {
@@ -25,22 +24,21 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
 }
 
 /// A header such as "stress[Pa]", with the unit that people read and the factor into it.
-struct Column {
+struct Header {
   std::string name, unit;
   double factor = 1;
 };
 
-Column column_of(const std::string& header) {
-  Column column{header, "", 1};
-  if (const auto bracket = header.find('['); bracket != std::string::npos) {
-    column.name = header.substr(0, bracket);
-    column.unit = header.substr(bracket + 1, header.find(']') - bracket - 1);
+Header header_of(const std::string& text) {
+  Header header{text, "", 1};
+  if (const auto bracket = text.find('['); bracket != std::string::npos) {
+    header.name = text.substr(0, bracket);
+    header.unit = text.substr(bracket + 1, text.find(']') - bracket - 1);
   }
-  if (column.unit == "Pa") return {column.name, "MPa", 1e-6};
-  if (column.unit == "-")
-    return column.name.rfind("strain", 0) == 0 ? Column{column.name, "permil", 1e3}
-                                               : Column{column.name, "", 1};
-  return column;
+  if (header.unit == "Pa") return {header.name, "MPa", 1e-6};
+  if (header.unit == "-")
+    return header.name.rfind("strain", 0) == 0 ? Header{header.name, "‰", 1e3} : Header{header.name, "", 1};
+  return header;
 }
 
 double number(const Row& row, std::size_t column) {
@@ -50,70 +48,58 @@ double number(const Row& row, std::size_t column) {
   return end == row[column].c_str() ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-report::Axis axis(const Column& column) { return {column.name, column.unit, false, {}, {}}; }
+}  // namespace
 
-std::vector<report::Chart> charts_of_columns(const std::vector<Row>& rows) {
+std::vector<TestCurve> read_test_curves(const std::filesystem::path& file) {
+  const std::vector<Row> rows = read_rows(file);
+  std::vector<TestCurve> curves;
+  if (rows.empty() || rows.front() != Row{"test", "curve", "kind", "strain[-]", "stress[Pa]"}) return curves;
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    const Row& row = rows[r];
+    if (row.size() < 5) continue;
+    if (curves.empty() || curves.back().test != row[0] || curves.back().name != row[1] ||
+        curves.back().kind != row[2])
+      curves.push_back({row[0], row[1], row[2], {}, {}});
+    curves.back().strain.push_back(1e3 * number(row, 3));
+    curves.back().stress.push_back(1e-6 * number(row, 4));
+  }
+  return curves;
+}
+
+std::vector<Column> read_columns(const std::filesystem::path& file) {
+  const std::vector<Row> rows = read_rows(file);
   std::vector<Column> columns;
-  for (const std::string& header : rows.front()) columns.push_back(column_of(header));
+  if (rows.size() < 2) return columns;
+  for (std::size_t k = 0; k < rows.front().size(); ++k) {
+    const Header header = header_of(rows.front()[k]);
+    columns.push_back({header.name, header.unit, {}});
+    for (std::size_t r = 1; r < rows.size(); ++r)
+      columns.back().values.push_back(header.factor * number(rows[r], k));
+  }
+  return columns;
+}
+
+std::vector<report::Chart> charts_of(const std::vector<Column>& columns) {
   std::vector<report::Chart> charts;
   for (std::size_t k = 1; k < columns.size(); ++k) {
-    // Columns of one unit share a chart.
     auto chart = std::find_if(charts.begin(), charts.end(),
                               [&](const report::Chart& c) { return c.y.unit == columns[k].unit; });
     if (chart == charts.end()) {
-      charts.push_back({"", axis(columns[0]), {"", columns[k].unit, false, {}, {}}, {}, ""});
+      report::Chart fresh;
+      fresh.x = {columns[0].name, columns[0].unit, false, {}, {}};
+      fresh.y.unit = columns[k].unit;
+      charts.push_back(std::move(fresh));
       chart = std::prev(charts.end());
     }
     chart->y.title += (chart->y.title.empty() ? "" : ", ") + columns[k].name;
     chart->title = chart->y.title + " over " + columns[0].name;
     report::Series series;
     series.name = columns[k].name;
-    for (std::size_t r = 1; r < rows.size(); ++r) {
-      series.x.push_back(columns[0].factor * number(rows[r], 0));
-      series.y.push_back(columns[k].factor * number(rows[r], k));
-    }
+    series.x = columns[0].values;
+    series.y = columns[k].values;
     chart->series.push_back(std::move(series));
   }
   return charts;
-}
-
-std::vector<report::Chart> charts_of_tests(const std::vector<Row>& rows) {
-  const Column x = column_of(rows.front()[3]), y = column_of(rows.front()[4]);
-  std::vector<report::Chart> charts;
-  for (std::size_t r = 1; r < rows.size(); ++r) {
-    const Row& row = rows[r];
-    if (row.size() < 5) continue;
-    if (charts.empty() || charts.back().title != row[0]) {
-      const auto known =
-          std::find_if(charts.begin(), charts.end(), [&](const report::Chart& c) { return c.title == row[0]; });
-      if (known == charts.end())
-        charts.push_back({row[0], axis(x), axis(y), {}, ""});
-      else
-        std::rotate(known, known + 1, charts.end());
-    }
-    std::vector<report::Series>& all = charts.back().series;
-    if (all.empty() || all.back().name != row[1]) {
-      report::Series series;
-      series.name = row[1];
-      // One colour a kind: what counts is virtual against laboratory, not which seed.
-      series.colour = row[2] == "fitted" ? 0 : row[2] == "unseen" ? 1 : row[2] == "laboratory" ? 2 : 3;
-      series.kind =
-          row[2] == "unseen" || row[2] == "code" ? report::Series::Kind::dashed : report::Series::Kind::line;
-      all.push_back(std::move(series));
-    }
-    all.back().x.push_back(x.factor * number(row, 3));
-    all.back().y.push_back(y.factor * number(row, 4));
-  }
-  return charts;
-}
-
-}  // namespace
-
-std::vector<report::Chart> read_charts(const std::filesystem::path& file) {
-  const std::vector<Row> rows = read_rows(file);
-  if (rows.size() < 2) return {};
-  const bool by_test = rows.front().size() == 5 && rows.front()[0] == "test";
-  return by_test ? charts_of_tests(rows) : charts_of_columns(rows);
 }
 
 }  // namespace app

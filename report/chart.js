@@ -9,6 +9,7 @@
   const along = (axis, value) => (axis.log ? Math.log10(value) : value);
   const back = (axis, place) => (axis.log ? 10 ** place : place);
   const unitless = (unit) => !unit || unit === '-' || unit === '1';
+  const look = (series) => series.kind + (series.thin ? ' thin' : '');
   const words = (axis) => (axis.unit ? `${axis.title} [${axis.unit}]` : axis.title);
   const short = (value, unit) => `${String(Number(value.toPrecision(5))).replace('-', '−')}${unitless(unit) ? '' : ' ' + unit}`;
 
@@ -119,7 +120,7 @@
         (crosses(data.y, shownY) ? `M${box.left} ${py(0).toFixed(1)}H${right}` : '');
       text += `<text class="title" text-anchor="middle" x="${(box.left + right) / 2}" y="${height - 10}">${titled(data.x, tx.power)}</text>`;
       text += `<text class="title" text-anchor="middle" x="16" y="${middle}" transform="rotate(-90 16 ${middle})">${titled(data.y, ty.power)}</text>`;
-      const curves = data.series.filter((s) => s.shown).map((s) => `<path class="${s.kind} c${s.colour}" d="${path(s)}"/>`).join('');
+      const curves = data.series.filter((s) => s.shown).map((s) => `<path class="${look(s)} c${s.colour}" d="${path(s)}"/>`).join('');
       svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
       svg.innerHTML = `<clipPath id="${clip}"><rect x="${box.left}" y="${box.top}" width="${box.width}" height="${box.height}"/></clipPath>` +
         `<path class="grid" d="${grid}"/><path class="zero" d="${zero}"/><path class="frame" d="M${box.left} ${box.top}V${bottom}H${right}"/>` +
@@ -310,7 +311,7 @@
       live.querySelector('.over').remove();
       const heading = shown.map((series, k) => {
         const d = { band: 'M0 -5H28V5H0Z', points: marker(14, 0, series.colour) }[series.kind] || 'M0 0H28';
-        return `<g transform="translate(${box.left} ${36 + 18 * k})"><path class="${series.kind} c${series.colour}" d="${d}"/>` +
+        return `<g transform="translate(${box.left} ${36 + 18 * k})"><path class="${look(series)} c${series.colour}" d="${d}"/>` +
           `<g class="words"><text x="36" y="4">${escape(series.name)}</text></g></g>`;
       }).join('');
       live.innerHTML = `<rect width="${width}" height="${height + head}" style="fill:var(--card)"/>` +

@@ -114,7 +114,8 @@ std::string drawn(const Series& series, int colour, const Scale& across, const S
                            : series.kind == Series::Kind::points ? markers(series, colour, across, up)
                                                                  : polyline(series.x, series.y, across, up);
   return path.empty() ? ""
-                      : fmt::format("<path class=\"{} c{}\" d=\"{}\"/>", class_of(series.kind), colour, path);
+                      : fmt::format("<path class=\"{}{} c{}\" d=\"{}\"/>", class_of(series.kind),
+                                    series.thin ? " thin" : "", colour, path);
 }
 
 nlohmann::json rounded(const std::vector<double>& values) {
@@ -287,14 +288,14 @@ std::string static_svg(const Chart& chart, const std::string& id) {
       fmt::arg("words", words), fmt::arg("curves", curves));
 }
 
-std::string swatch_svg(Series::Kind kind, int colour) {
-  const std::string path = kind == Series::Kind::band     ? "M1 1H29V11H1Z"
-                           : kind == Series::Kind::points ? marker(15, 6, colour)
-                                                          : "M1 6H29";
+std::string swatch_svg(const Series& series, int colour) {
+  const std::string path = series.kind == Series::Kind::band     ? "M1 1H29V11H1Z"
+                           : series.kind == Series::Kind::points ? marker(15, 6, colour)
+                                                                 : "M1 6H29";
   return fmt::format(
-      "<svg class=\"swatch\" viewBox=\"0 0 30 12\" aria-hidden=\"true\"><path class=\"{} c{}\" "
+      "<svg class=\"swatch\" viewBox=\"0 0 30 12\" aria-hidden=\"true\"><path class=\"{}{} c{}\" "
       "d=\"{}\"/></svg>",
-      class_of(kind), colour, path);
+      class_of(series.kind), series.thin ? " thin" : "", colour, path);
 }
 
 std::string chart_json(const Chart& chart) {
@@ -308,6 +309,7 @@ std::string chart_json(const Chart& chart) {
                             {"x", rounded(one.x)},
                             {"y", rounded(one.y)}};
     if (one.kind == Series::Kind::band) entry["upper"] = rounded(one.upper);
+    if (one.thin) entry["thin"] = true;
     series.push_back(std::move(entry));
   }
   const nlohmann::json all = {{"title", chart.title},

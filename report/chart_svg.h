@@ -33,7 +33,7 @@ std::vector<int> colours_of(const Chart& chart);
 std::string static_svg(const Chart& chart, const std::string& id);
 
 /// A small sample of the series' line or marker, for the legend.
-std::string swatch_svg(Series::Kind kind, int colour);
+std::string swatch_svg(const Series& series, int colour);
 
 /// The data for the script, as JSON that may stand inside a <script> element. Seven significant digits; NaN
 /// becomes null.

@@ -89,28 +89,35 @@ class Writer {
   }
 
   void operator()(const Targets& targets) {
-    html +=
+    const bool singles = std::any_of(targets.rows.begin(), targets.rows.end(),
+                                     [](const Target& target) { return target.worst.has_value(); });
+    html += fmt::format(
         "<div class=\"scroll\"><table class=\"targets\"><thead><tr><th scope=\"col\">Target</th>"
-        "<th scope=\"col\" class=\"number\">Asked</th><th scope=\"col\" class=\"number\">Achieved</th>"
-        "<th scope=\"col\" class=\"number\">Error</th><th scope=\"col\" class=\"number\">Tolerance</th>"
-        "<th scope=\"col\"><span class=\"unseen\">Error within tolerance</span></th>"
-        "<th scope=\"col\">Result</th></tr></thead><tbody>\n";
+        "<th scope=\"col\" class=\"number\">Asked</th><th scope=\"col\" class=\"number\">{}</th>"
+        "<th scope=\"col\" class=\"number\">Error</th>{}<th scope=\"col\" class=\"number\">Tolerance</th>"
+        "<th scope=\"col\" class=\"reading\"><span class=\"unseen\">Error within tolerance</span></th>"
+        "<th scope=\"col\">Result</th></tr></thead><tbody>\n",
+        singles ? "Mean" : "Achieved", singles ? "<th scope=\"col\" class=\"number\">Worst single</th>" : "");
     for (const Target& target : targets.rows) {
       const auto with_unit = [&](double value) {
         return escape(number_text(value) +
                       (target.unit.empty() || !std::isfinite(value) ? "" : " " + target.unit));
       };
-      const std::string allowed =
-          target.tolerance > 0 ? "± " + number_text(100 * target.tolerance, 3) + " %" : "none set";
+      const auto cell = [](const std::string& text) {
+        return fmt::format("<td class=\"number\">{}</td>", text);
+      };
       html += fmt::format(
-          "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
-          "class=\"number\">{}</td>"
-          "<td class=\"number\">{}</td><td>{}</td><td class=\"{}\"><span class=\"mark\" "
-          "aria-hidden=\"true\">{}</span> "
+          "<tr><th scope=\"row\">{}{}</th>", escape(target.name),
+          target.source.empty() ? "" : fmt::format("<span class=\"source\">{}</span>", escape(target.source)));
+      html += cell(with_unit(target.target)) + cell(with_unit(target.achieved)) +
+              cell(signed_percent(target.relative_error));
+      if (singles) html += cell(target.worst ? signed_percent(*target.worst) : "–");
+      html += cell(target.tolerance > 0 ? "± " + number_text(100 * target.tolerance, 3) + " %" : "none set");
+      html += fmt::format(
+          "<td class=\"reading\">{}</td><td class=\"{}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> "
           "{}</td></tr>\n",
-          escape(target.name), with_unit(target.target), with_unit(target.achieved),
-          signed_percent(target.relative_error), allowed, deviation_svg(target), target.met ? "met" : "missed",
-          target.met ? "✓" : "✗", target.met ? "met" : "not met");
+          deviation_svg(target), target.met ? "met" : "missed", target.met ? "✓" : "✗",
+          target.met ? "met" : "not met");
     }
     html += "</tbody></table></div>\n";
   }
@@ -122,8 +129,8 @@ class Writer {
                     escape(chart.title));
     const std::vector<int> colours = colours_of(chart);
     for (std::size_t k = 0; k < chart.series.size(); ++k)
-      html += fmt::format("<li>{}{}</li>\n", swatch_svg(chart.series[k].kind, colours[k]),
-                          escape(chart.series[k].name));
+      html +=
+          fmt::format("<li>{}{}</li>\n", swatch_svg(chart.series[k], colours[k]), escape(chart.series[k].name));
     html += fmt::format("</ul>\n<div class=\"canvas\">{}</div>\n",
                         static_svg(chart, fmt::format("clip{}", ++charts)));
     if (!chart.caption.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", escape(chart.caption));

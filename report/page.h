@@ -37,6 +37,8 @@ struct Target {
   double relative_error = 0;  ///< (achieved - target) / target [-]
   double tolerance = 0;       ///< allowed |relative_error| [-]; 0 means that none was set
   bool met = false;
+  std::string source = "";                     ///< where `target` comes from; "" if that goes without saying
+  std::optional<double> worst = std::nullopt;  ///< relative error of the worst single specimen [-]
 };
 
 /// A table of targets; each row says in words and by a mark whether it was met, and shows the error within its
@@ -62,6 +64,7 @@ struct Series {
   std::vector<double> upper = {};  ///< a band's upper edge, as long as x; empty for the other kinds
   /// Index of its colour, 0 to 7, to give related series one colour; -1 takes the next free one.
   int colour = -1;
+  bool thin = false;  ///< a line that stands back behind the others
 };
 
 /// Curves over two axes, drawn in the order given (put bands first). Hover shows values, drag or wheel zooms, a

@@ -1,0 +1,109 @@
+#include "app/report_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "report/html.h"
+
+namespace app {
+
+Label label_of(const std::string& key) {
+  constexpr double degrees = 180 / 3.14159265358979323846;
+  static const std::map<std::string, Label> known{
+      {"E", {"Young's modulus E", "GPa", 1e-9}},
+      {"nu", {"Poisson's ratio ν", "", 1}},
+      {"density", {"density", "kg/m³", 1}},
+      {"T", {"local tensile strength T", "MPa", 1e-6}},
+      {"Co", {"local cohesion Co", "MPa", 1e-6}},
+      {"zeta", {"softening ζ", "", 1}},
+      {"phi_i", {"friction angle of intact links φi", "°", degrees}},
+      {"phi_c", {"friction angle of broken links φc", "°", degrees}},
+      {"alpha", {"α of Eq. 1", "", 1}},
+      {"beta", {"β of Eq. 1", "", 1}},
+      {"gamma", {"γ of Eq. 1", "", 1}},
+      {"unloading", {"unloading in the softening branch", "", 1}},
+      {"cohesion_during_softening", {"cohesion during softening", "", 1}},
+      {"broken_link_contact", {"contact distance of broken links", "", 1}},
+      {"peak_stress", {"peak stress", "MPa", 1e-6}},
+      {"peak_strain", {"strain at the peak", "‰", 1e3}},
+      {"work_of_fracture", {"work after the peak per area", "J/m²", 1}},
+      {"damage", {"links broken, part of all", "%", 100}},
+      {"energy_balance_error", {"error of the energy balance", "%", 100}},
+      {"unbalanced_force_ratio", {"difference of the two platens' forces", "%", 100}},
+      {"passed_peak", {"peak passed", "", 1}},
+      {"quasi_static", {"quasi-static", "", 1}},
+      {"broken_links", {"links broken", "", 1}},
+      {"ends", {"ends of the specimen", "", 1}},
+      {"axis", {"loading axis", "", 1}},
+      {"velocity", {"speed of the platens", "m/s", 1}},
+      {"damping", {"local damping", "", 1}},
+      {"time_step", {"time step", "µs", 1e6}},
+      {"critical_time_step", {"critical time step", "µs", 1e6}},
+      {"iterations", {"iterations of the solver", "", 1}},
+      {"virtual_tests", {"virtual tests", "", 1}},
+      {"step_loop_seconds", {"time in the step loop", "s", 1}},
+      {"overlap_solve_seconds", {"time in the coupling", "s", 1}},
+      {"wall_seconds", {"time, all together", "s", 1}},
+      {"memory_bytes", {"memory", "GiB", std::pow(2.0, -30)}},
+      {"state_sha256", {"SHA-256 of the final state", "", 1}},
+      {"command_line", {"command", "", 1}},
+      {"cpu", {"processor", "", 1}},
+      {"arch", {"architecture", "", 1}}};
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  Label label{key, "", 1};
+  std::replace(label.words.begin(), label.words.end(), '_', ' ');
+  return label;
+}
+
+std::string with_unit(double value, const std::string& unit, int digits) {
+  const std::string shown = report::number_text(value, digits);
+  if (unit.empty() || !std::isfinite(value)) return shown;
+  return shown + (unit == "°" ? "" : " ") + unit;
+}
+
+std::string value_words(const std::string& key, const Json& value) {
+  if (value.is_null()) return "–";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (!value.is_number()) return value.dump();
+  const Label label = label_of(key);
+  // Counts are shown to the last digit, unless they have a unit of their own.
+  if (!value.is_number_float() && label.factor == 1) return with_unit(value.get<double>(), label.unit, 15);
+  return with_unit(label.factor * value.get<double>(), label.unit);
+}
+
+std::string people_unit(const std::string& unit) {
+  if (unit == "-") return "";
+  if (unit == "permil") return "‰";
+  if (unit == "J/m2") return "J/m²";
+  return unit;
+}
+
+double number(const Json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>()
+                                                     : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string text(const Json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+const Json& list_of(const Json& object, const std::string& key) {
+  static const Json none = Json::array();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_array() ? *found : none;
+}
+
+report::KeyValues rows_of(const Json& object, std::initializer_list<const char*> keys) {
+  report::KeyValues table;
+  for (const char* key : keys)
+    if (const auto found = object.find(key); found != object.end() && found->is_primitive())
+      table.rows.emplace_back(label_of(key).words, value_words(key, *found));
+  return table;
+}
+
+}  // namespace app

@@ -1,0 +1,122 @@
+#include "app/test_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/curve_table.h"
+#include "report/html.h"
+
+namespace app {
+namespace {
+
+const Column* column(const std::vector<Column>& columns, const std::string& name) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+report::Series series(const std::string& name, const Column& x, const Column& y, int colour,
+                      report::Series::Kind kind = report::Series::Kind::line) {
+  report::Series line;
+  line.name = name;
+  line.kind = kind;
+  line.x = x.values;
+  line.y = y.values;
+  line.colour = colour;
+  return line;
+}
+
+/// Stress over the axial strain to the one side and the lateral strain to the other, as laboratories draw it.
+report::Chart stress_chart(const std::vector<Column>& columns, bool compression) {
+  const Column *platens = column(columns, "strain"), *stress = column(columns, "stress"),
+               *axial = column(columns, "strain_axial"), *lateral = column(columns, "strain_lateral");
+  report::Chart chart;
+  chart.title = "Stress over strain";
+  chart.x = {"strain", "‰", false, {}, {}};
+  chart.y = {"stress", "MPa", false, {}, {}};
+  chart.series.push_back(series("axial, between the platens", *platens, *stress, 0));
+  if (axial != nullptr)
+    chart.series.push_back(
+        series("axial, of the gauge inside", *axial, *stress, 2, report::Series::Kind::dashed));
+  if (lateral != nullptr)
+    chart.series.push_back(
+        series("lateral, of the gauge inside", *lateral, *stress, 1, report::Series::Kind::dashed));
+  if (const auto peak = std::max_element(stress->values.begin(), stress->values.end());
+      peak != stress->values.end()) {
+    report::Series mark;
+    mark.name = "peak";
+    mark.kind = report::Series::Kind::points;
+    mark.x = {platens->values[static_cast<std::size_t>(peak - stress->values.begin())]};
+    mark.y = {*peak};
+    mark.colour = 0;
+    chart.series.push_back(std::move(mark));
+  }
+  chart.caption =
+      compression ? "Compression and shortening are positive; lateral expansion is negative, to the left."
+                  : "Tension and elongation are positive; lateral contraction is negative, to the left. Once "
+                    "a crack opens outside the gauge, the gauge relaxes while the platens go on.";
+  return chart;
+}
+
+report::Chart damage_chart(const std::vector<Column>& columns) {
+  const Column *strain = column(columns, "strain"), *broken = column(columns, "broken"),
+               *unbalanced = column(columns, "unbalanced");
+  const auto percent = [](Column values) {
+    for (double& value : values.values) value *= 100;
+    return values;
+  };
+  report::Chart chart;
+  chart.title = "Damage and balance";
+  chart.x = {"axial strain between the platens", "‰", false, {}, {}};
+  chart.y = {"part", "%", false, {}, {}};
+  chart.series.push_back(series("links broken, of all", *strain, percent(*broken), 0));
+  if (unbalanced != nullptr)
+    chart.series.push_back(series("difference of the platens' forces, of their mean", *strain,
+                                  percent(*unbalanced), 5, report::Series::Kind::dashed));
+  return chart;
+}
+
+}  // namespace
+
+report::Page test_page(const Json& result, const std::filesystem::path& curves) {
+  report::Page page;
+  const bool uniaxial = result.contains("peak_stress");
+  if (uniaxial) {
+    const bool good = result.value("passed_peak", true) && result.value("quasi_static", true);
+    page.verdict = good ? report::Verdict::neutral : report::Verdict::not_met;
+    page.verdict_words =
+        fmt::format("Peak stress {} at a strain of {}. ", value_words("peak_stress", result["peak_stress"]),
+                    with_unit(1e3 * number(result, "peak_strain"), "‰"));
+    if (!result.value("passed_peak", true))
+      page.verdict_words += "The test ended at its strain limit before the peak was passed.";
+    else if (!result.value("quasi_static", true))
+      page.verdict_words += fmt::format("Not quasi-static: the platens' forces differ by {}; load it slower.",
+                                        with_unit(100 * number(result, "unbalanced_force_ratio"), "%", 3));
+    else
+      page.verdict_words += "The test was quasi-static.";
+  } else if (result.contains("E")) {
+    page.verdict_words =
+        fmt::format("E = {}, ν = {}", value_words("E", result["E"]), value_words("nu", result["nu"]));
+  }
+  page.sections.push_back({"Results",
+                           {rows_of(result, {"peak_stress", "peak_strain", "E", "nu", "work_of_fracture",
+                                             "broken_links", "damage"})}});
+  const std::vector<Column> columns = read_columns(curves);
+  report::Section drawn{"Curves", {}};
+  if (column(columns, "strain") != nullptr && column(columns, "stress") != nullptr) {
+    drawn.blocks.emplace_back(stress_chart(columns, text(result, "test") == "compression"));
+    if (column(columns, "broken") != nullptr) drawn.blocks.emplace_back(damage_chart(columns));
+  }
+  if (!drawn.blocks.empty()) page.sections.push_back(std::move(drawn));
+  page.sections.push_back(
+      {"How it was run",
+       {rows_of(result,
+                {"elements", "links", "axis", "ends", "velocity", "damping", "passed_peak", "quasi_static",
+                 "unbalanced_force_ratio", "energy_balance_error", "steps", "time_step", "critical_time_step",
+                 "iterations", "threads", "step_loop_seconds", "wall_seconds", "state_sha256"})}});
+  return page;
+}
+
+}  // namespace app
