@@ -47,9 +47,8 @@ calibrate::CalibrationResult run(const CalibrateOptions& options, const calibrat
   }
 }
 
-int calibrate_case(const CalibrateOptions& options, const Invocation& invocation) {
-  use_threads(options.common);
-  const calibrate::CalibrationCase wanted = calibrate::read_case(options.file);
+int calibrate_into_folder(const CalibrateOptions& options, const Invocation& invocation,
+                          const calibrate::CalibrationCase& wanted) {
   RunFolder folder(options.output, invocation, options.common);
   for (const std::filesystem::path& input : wanted.inputs) folder.add_input(input);
   for (const std::uint64_t seed : wanted.fit_seeds) folder.add_seed(seed);
@@ -73,6 +72,22 @@ int calibrate_case(const CalibrateOptions& options, const Invocation& invocation
   console.say(fmt::format("report: {}", folder.file("report.html").string()));
   console.result(result.dump(2));
   return found.complete() ? done : tolerance_missed;
+}
+
+int calibrate_case(const CalibrateOptions& options, const Invocation& invocation) {
+  use_threads(options.common);
+  const calibrate::CalibrationCase wanted = calibrate::read_case(options.file);
+  const bool was_there = std::filesystem::exists(options.output);
+  try {
+    return calibrate_into_folder(options, invocation, wanted);
+  } catch (const dem::InputError& error) {
+    // Some packings show only once they are made that they are too small: the case is wrong all the same, and
+    // leaves nothing behind.
+    std::error_code ignored;
+    if (!was_there && std::filesystem::is_empty(options.output, ignored))
+      std::filesystem::remove(options.output, ignored);
+    throw dem::InputError(options.file, error.what(), "");
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
@@ -136,8 +138,9 @@ void add_specimen(CLI::App& root, Invocation& invocation) {
   maker->add_option("--elements", options->packing.elements, "Number of elements")
       ->required()
       ->check(CLI::Range(1, 100'000'000));
-  maker->add_option("--seed", options->packing.seed,
-                    "Seed of the disorder, default 1: same seed, same specimen");
+  maker
+      ->add_option("--seed", options->packing.seed, "Seed of the disorder, default 1: same seed, same specimen")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"));
   maker->add_option("--grading", options->grading, "Distribution of the radii, default uniform")
       ->check(CLI::IsMember({"uniform", "lognormal", "equal"}));
   maker

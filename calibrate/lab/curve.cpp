@@ -70,7 +70,7 @@ double strain_column_factor(const CsvTable& table, std::size_t column, const Cur
   if (!unit.empty() && is_length(unit)) {
     if (!(gauge_length > 0))
       throw InputError(place(table, column), fmt::format("\"{}\" is a length, not a strain", unit),
-                       "give the gauge length over which it was measured");
+                       "give the gauge length over which it was measured, as in gauge_length = \"100 mm\"");
     return dem::unit_factor(unit, dem::Quantity::length, place(table, column)) / gauge_length;
   }
   return strain_factor(unit, place(table, column));
@@ -148,7 +148,7 @@ double strain_factor(std::string_view unit, const std::string& where) {
 double stress_factor(std::string_view unit, const std::string& where) {
   if (unit.empty())
     throw InputError(where, "the stress has no unit",
-                     "write it in the header as in stress[MPa], or give the unit");
+                     "write it in the header as in stress[MPa], or give it with stress_unit = \"MPa\"");
   std::string remedy = "write it in the header as in stress[MPa]";
   try {
     return dem::unit_factor(unit, dem::Quantity::stress, where);
@@ -157,7 +157,10 @@ double stress_factor(std::string_view unit, const std::string& where) {
       dem::unit_factor(unit, dem::Quantity::force, where);
       remedy = "divide the force by the loaded area, and name the column as in stress[MPa]";
     } catch (const InputError&) {
-      const auto near = nearest_names(unit, {"MPa", "N/mm2", "GPa", "kPa", "Pa", "psi", "ksi", "bar"}, 1);
+      // "kg" is no slip for "kPa".
+      const auto near = unit.size() < 3
+                            ? std::vector<std::string>{}
+                            : nearest_names(unit, {"MPa", "N/mm2", "GPa", "kPa", "Pa", "psi", "ksi", "bar"}, 1);
       if (!near.empty()) remedy = fmt::format("did you mean \"{}\"?", near.front());
     }
   }

@@ -46,7 +46,8 @@ void refuse_wrong_sign(const LabCurve& curve) {
       curve.file,
       fmt::format("the stress runs from {:.4g} to {:.4g} MPa, {} positive: no {} test", *low / 1e6, *high / 1e6,
                   compression ? "compression" : "tension", compression ? "compression" : "tension"),
-      "name the other sign convention (compression_positive, tension_positive, negative_is_compression)");
+      "name the other sign convention: sign = \"compression_positive\", \"tension_positive\" or "
+      "\"negative_is_compression\"");
 }
 
 void refuse_spike(const LabCurve& curve, std::size_t peak, double spike) {
@@ -81,11 +82,11 @@ void refuse_backwards(const LabCurve& curve, double tolerance) {
   std::size_t largest = 0;
   for (std::size_t k = 1; k < curve.size(); ++k) {
     if (curve.strain[k] < curve.strain[largest] - tolerance)
-      throw InputError(
-          place(curve, k),
-          fmt::format("the strain goes backwards, to {:.4g} after {:.4g} in row {}", curve.strain[k],
-                      curve.strain[largest], row_of(curve, largest)),
-          "keep one monotonic branch (a filter such as phase = 1, or a # in front of the rows of the loop)");
+      throw InputError(place(curve, k),
+                       fmt::format("the strain goes backwards, to {:.4g} after {:.4g} in row {}",
+                                   curve.strain[k], curve.strain[largest], row_of(curve, largest)),
+                       "keep one monotonic branch: only_rows = { column = \"phase\", equals = 1 }, or a # in "
+                       "front of the rows of the loop");
     if (curve.strain[k] > curve.strain[largest]) largest = k;
   }
 }
@@ -110,7 +111,8 @@ void refuse_implausible(const LabCurve& curve, std::size_t peak, const CheckOpti
                      unit_hint(top, options.min_strength, options.max_strength,
                                {{1e6, "MPa instead of Pa"},
                                 {1e-6, "Pa instead of MPa"},
-                                {1e-3, "MPa instead of GPa"},
+                                {1e-3, "kPa instead of MPa or MPa instead of GPa"},
+                                {1e3, "MPa instead of kPa"},
                                 {1e9, "MPa instead of mPa"}}));
   const double strain = curve.strain[peak] - curve.strain.front();
   if (strain < options.min_peak_strain || strain > options.max_peak_strain)
@@ -138,9 +140,9 @@ void refuse_missing_peak(const LabCurve& curve, std::size_t peak, const CheckOpt
   const double last_slope = 0.05 * top / std::max(curve.strain[peak] - strain_at(0.95), 1e-12);
   const double first_slope = 0.23 * top / std::max(strain_at(0.33) - strain_at(0.10), 1e-12);
   if (last_slope <= options.flat_at_end * first_slope) return;
-  throw InputError(
-      place(curve, peak), fmt::format("the stress still rises at its highest, {:.4g} MPa: no peak", top / 1e6),
-      "give a test to failure; if the specimen did fail there, allow the curve to end at its peak");
+  throw InputError(place(curve, peak),
+                   fmt::format("the stress still rises at its highest, {:.4g} MPa: no peak", top / 1e6),
+                   "give a test to failure; if the specimen did fail there, write may_end_at_peak = true");
 }
 
 }  // namespace
@@ -172,6 +174,14 @@ LabCurve loading_branch(const LabCurve& curve, const CheckOptions& options) {
 
   LabCurve branch = curve;
   std::size_t start = start_of_loading(curve, peak, options);
+  if (start > 0 && curve.stress[start] > 0.1 * curve.stress[peak])
+    throw InputError(
+        place(curve, start),
+        fmt::format(
+            "the strain goes backwards here, and the loading to the peak begins at {:.3g} of {:.3g} MPa",
+            curve.stress[start] / 1e6, curve.stress[peak] / 1e6),
+        "correct the row, or leave it out by a # in front; after cycles, the last loading must begin below one "
+        "tenth of the strength");
   if (start > 0)
     branch.notes.push_back(
         fmt::format("{} rows before the last loading left out (up to row {})", start, row_of(curve, start)));
@@ -205,7 +215,8 @@ void check_curve(const LabCurve& curve, const CheckOptions& options) {
         place(curve, peak),
         fmt::format("the strain falls from {:.4g} to {:.4g} while the stress rises to its peak",
                     curve.strain.front(), curve.strain[peak]),
-        "if the strain has another sign than the stress, say so; if the rows are in reverse order, turn them");
+        "if the strain has another sign than the stress, say so with strain_sign = \"...\"; if the rows are in "
+        "reverse order, turn them");
   if (curve.size() < static_cast<std::size_t>(options.min_rows) || peak < 5)
     throw InputError(
         curve.file,
