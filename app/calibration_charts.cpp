@@ -90,6 +90,21 @@ double eq1_stiffness(const dem::Vec3& abc, double ratio) {
   return (abc[1] + abc[2] * ratio) / (abc[0] + ratio);
 }
 
+/// Where one stage gives way to the next, over the height of what the chart shows.
+Series borders(const report::Chart& chart, const std::vector<double>& at) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const Series& series : chart.series)
+    for (const double y : series.y) low = std::min(low, y), high = std::max(high, y);
+  Series lines = named("a stage ends", Series::Kind::dashed, plain);
+  lines.thin = true;
+  for (const double x : at) {
+    add_point(lines, x, low);
+    add_point(lines, x, high);
+    add_point(lines, x, nan);
+  }
+  return lines;
+}
+
 }  // namespace
 
 report::Chart test_chart(const Json& result, const std::vector<TestCurve>& curves, const std::string& test) {
@@ -209,7 +224,7 @@ std::vector<report::Chart> progress_charts(const Json& result) {
   misfit.title = "Worst misfit of a target, over its tolerance";
   misfit.x = path.x = {"evaluation", "", false, 0.0, steps + 1};
   misfit.y = {"misfit / tolerance", "", true, {}, {}};
-  path.title = "Way of the parameters";
+  path.title = "Path of the parameters";
   path.y = {"value / final value", "", true, {}, {}};
   misfit.series.push_back(named("tolerance", Series::Kind::dashed, plain));
   add_point(misfit.series.back(), 0, 1);
@@ -217,16 +232,18 @@ std::vector<report::Chart> progress_charts(const Json& result) {
 
   std::vector<Series> best;
   std::string stages;
+  std::vector<double> ends;
   double lowest = 0;
   for (std::size_t k = 0; k < history.size(); ++k) {
     const std::string stage = text(history[k], "stage");
-    const double at = static_cast<double>(k) + 1, worst = std::max(number(history[k], "worst"), 1e-3);
+    const double at = static_cast<double>(k) + 1, worst = std::max(number(history[k], "worst"), 0.01);
     const bool begins = k == 0 || stage != text(history[k - 1], "stage");
     if (begins) {
       const int colour = static_cast<int>(best.size()) % 5;
       misfit.series.push_back(named(stage, Series::Kind::points, colour));
       best.push_back(named(stage + ", best so far", Series::Kind::line, colour));
       lowest = worst;
+      if (k > 0) ends.push_back(at - 0.5);
       stages += fmt::format("{}{} from evaluation {}", stages.empty() ? "" : ", ", stage, k + 1);
     }
     lowest = std::min(lowest, worst);
@@ -251,6 +268,8 @@ std::vector<report::Chart> progress_charts(const Json& result) {
   path.caption = fmt::format("Every point that the fit tried: {}.", stages);
   std::vector<report::Chart> charts{std::move(misfit)};
   if (!path.series.empty()) charts.push_back(std::move(path));
+  if (!ends.empty())
+    for (report::Chart& chart : charts) chart.series.push_back(borders(chart, ends));
   return charts;
 }
 

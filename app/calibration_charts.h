@@ -16,7 +16,7 @@ report::Chart test_chart(const Json& result, const std::vector<TestCurve>& curve
 /// paper and of Hentz et al.
 std::vector<report::Chart> elastic_charts(const Json& result);
 
-/// The worst misfit over the evaluations, and the way of the parameters. Empty if nothing was fitted.
+/// The worst misfit over the evaluations, and the path of the parameters. Empty if nothing was fitted.
 std::vector<report::Chart> progress_charts(const Json& result);
 
 }  // namespace app

@@ -31,23 +31,22 @@ std::string symbol(const std::string& key) {
   return key;
 }
 
-std::string shown_in_its_unit(const Json& target, const char* key) {
-  return with_unit(number(target, key) / target.value("scale", 1.0), people_unit(text(target, "unit")));
-}
-
+/// "tensile strength 2.91 MPa (−16 %, allowed ± 3 %)"
 std::string target_words(const Json& target) {
+  const std::string allowed = percent(number(target, "tolerance"));
   if (is_curve(target))
     return fmt::format("{} {} of the peak off (allowed {})", text(target, "words"),
-                       percent(number(target, "achieved")), percent(number(target, "tolerance")));
-  return fmt::format("{} {} against {} ({}, allowed ± {})", text(target, "words"),
-                     shown_in_its_unit(target, "achieved"), shown_in_its_unit(target, "target"),
-                     report::signed_percent(number(target, "rel_error")), percent(number(target, "tolerance")));
+                       percent(number(target, "achieved")), allowed);
+  return fmt::format(
+      "{} {} ({}, allowed ± {})", text(target, "words"),
+      with_unit(number(target, "achieved") / target.value("scale", 1.0), people_unit(text(target, "unit"))),
+      report::signed_percent(number(target, "rel_error")), allowed);
 }
 
 report::Target row_of(const Json& target) {
   const double scale = target.value("scale", 1.0);
   report::Target row;
-  row.name = target.value("words", target.value("name", "target"));
+  row.name = capital(target.value("words", target.value("name", "target")));
   row.unit = people_unit(text(target, "unit"));
   row.target = number(target, "target") / scale;
   row.achieved = number(target, "achieved") / scale;
@@ -105,16 +104,18 @@ void add_verdict(report::Page& page, const Json& result) {
     for (std::size_t k = 0; k < undetermined.size(); ++k) names += (k > 0 ? " and " : "") + undetermined[k];
     words += fmt::format(" The data do not determine {}.", names);
   }
-  if (const report::Targets unseen = unseen_targets(result); !unseen.rows.empty()) {
-    const report::Target* worst = nullptr;
-    for (const report::Target& row : unseen.rows)
-      if (worst == nullptr || std::abs(*row.worst) > std::abs(*worst->worst)) worst = &row;
-    const bool held =
-        std::all_of(unseen.rows.begin(), unseen.rows.end(), [](const report::Target& row) { return row.met; });
-    words += fmt::format(" On specimens that the fit never saw, the worst single error is {} ({}){}.",
-                         report::signed_percent(*worst->worst), worst->name,
-                         held ? "" : "; not all are within their tolerance");
+  const report::Targets unseen = unseen_targets(result);
+  if (unseen.rows.empty()) return;
+  std::size_t worst = 0;
+  bool held = true;
+  for (std::size_t k = 0; k < unseen.rows.size(); ++k) {
+    held = held && unseen.rows[k].met;
+    if (std::abs(*unseen.rows[k].worst) > std::abs(*unseen.rows[worst].worst)) worst = k;
   }
+  words += fmt::format(" On specimens that the fit never saw, the worst single error is {} ({}){}.",
+                       report::signed_percent(*unseen.rows[worst].worst),
+                       text(result["unseen_targets"][worst], "words"),
+                       held ? "" : "; not all are within their tolerance");
 }
 
 std::string size_words(const Json& specimen) {
@@ -137,29 +138,29 @@ report::KeyValues setting(const Json& result) {
   }
   if (const std::string size = size_words(specimen); !size.empty())
     table.rows.emplace_back(
-        "specimens", fmt::format("{}, about {} elements each", size,
+        "Specimens", fmt::format("{}, about {} elements each", size,
                                  report::number_text(
                                      elements / static_cast<double>(std::max<std::size_t>(1, seen + unseen)))));
   if (const std::string structure = text(specimen, "cut_from"); !structure.empty())
-    table.rows.emplace_back("cut out of", structure);
-  table.rows.emplace_back("fitted on, checked on",
+    table.rows.emplace_back("Cut out of", structure);
+  table.rows.emplace_back("Fitted on, checked on",
                           fmt::format("{} specimen{}, {} unseen", seen, seen == 1 ? "" : "s", unseen));
   if (!ends.empty())
     table.rows.emplace_back(
-        "ends of the specimens",
+        "Ends of the specimens",
         fmt::format("{} in tension, {} in compression", text(ends, "tension"), text(ends, "compression")));
   const Json laboratory = result.value("laboratory", Json::object());
   for (const auto& [test, lab] : laboratory.items())
     if (lab.value("specimens", 0) > 0 && lab.contains("peak_stress"))
       table.rows.emplace_back(
-          fmt::format("laboratory, {}", test),
+          fmt::format("Laboratory, {}", test),
           fmt::format("{} specimens: strength {} to {}, strain at the peak {} to {}", lab.value("specimens", 0),
                       report::number_text(1e-6 * number(lab["peak_stress"], "min")),
                       with_unit(1e-6 * number(lab["peak_stress"], "max"), "MPa"),
                       report::number_text(1e3 * number(lab["peak_strain"], "min"), 3),
                       with_unit(1e3 * number(lab["peak_strain"], "max"), "‰", 3)));
   table.rows.emplace_back(
-      "cost", fmt::format("{} virtual tests in {}", value_words("virtual_tests", result["virtual_tests"]),
+      "Cost", fmt::format("{} virtual tests in {}", value_words("virtual_tests", result["virtual_tests"]),
                           with_unit(number(result, "wall_seconds"), "s", 3)));
   return table;
 }
@@ -197,7 +198,7 @@ report::Table card_table(const Json& result) {
     } else if (value.is_string()) {
       remark = "choice of the model";
     }
-    table.rows.push_back({label_of(key).words, value_words(key, value), uncertainty, remark});
+    table.rows.push_back({capital(label_of(key).words), value_words(key, value), uncertainty, remark});
   }
   return table;
 }
@@ -249,10 +250,10 @@ report::Table specimens_table(const Json& result) {
   };
   static constexpr Shown all[] = {{"", "E", "E [GPa]"},
                                   {"", "nu", "ν"},
-                                  {"tension", "peak_stress", "tension peak [MPa]"},
-                                  {"tension", "peak_strain", "at strain [‰]"},
-                                  {"compression", "peak_stress", "compression peak [MPa]"},
-                                  {"compression", "peak_strain", "at strain [‰]"}};
+                                  {"tension", "peak_stress", "ft [MPa]"},
+                                  {"tension", "peak_strain", "at [‰]"},
+                                  {"compression", "peak_stress", "fc [MPa]"},
+                                  {"compression", "peak_strain", "at [‰]"}};
   const Json& list = list_of(result, "specimens");
   report::Table table;
   table.columns = {"Specimen", "Use", "Elements", "Links"};
@@ -289,12 +290,21 @@ report::Table stages_table(const Json& result) {
   return table;
 }
 
-std::optional<report::Section> texts(const char* title, const Json& list) {
-  if (list.empty()) return std::nullopt;
-  report::Section section{title, {}};
+/// As people read it: result.json and the card name units in ASCII.
+std::string for_people(std::string words) {
+  for (auto at = words.find(" permil"); at != std::string::npos; at = words.find(" permil", at))
+    words.replace(at, 7, " ‰");
+  for (auto at = words.find("(-"); at != std::string::npos; at = words.find("(-", at))
+    words.replace(at, 2, "(−");
+  return capital(words);
+}
+
+std::optional<report::Section> remarks(const char* title, const Json& list) {
+  report::List shown;
   for (const Json& item : list)
-    if (item.is_string()) section.blocks.emplace_back(report::Text{item.get<std::string>()});
-  return section;
+    if (item.is_string()) shown.items.push_back(for_people(item.get<std::string>()));
+  if (shown.items.empty()) return std::nullopt;
+  return report::Section{title, {std::move(shown)}};
 }
 
 }  // namespace
@@ -312,7 +322,7 @@ report::Page calibration_page(const Json& result, const std::filesystem::path& c
           report::Text{
               "The mean of the unseen specimens against the same targets. The result goes by the worst "
               "single specimen and the wider of the check's and the target's tolerance."}}});
-  if (auto warnings = texts("Warnings", list_of(result, "warnings"))) page.sections.push_back(*warnings);
+  if (auto warnings = remarks("Warnings", list_of(result, "warnings"))) page.sections.push_back(*warnings);
 
   const std::vector<TestCurve> curves = read_test_curves(curves_file);
   report::Section drawn{"Virtual and laboratory tests", {}};
@@ -334,9 +344,9 @@ report::Page calibration_page(const Json& result, const std::filesystem::path& c
   for (report::Chart& chart : progress_charts(result)) course.blocks.emplace_back(std::move(chart));
   if (!course.blocks.empty()) page.sections.push_back(std::move(course));
   if (!list_of(result, "specimens").empty()) page.sections.push_back({"Specimens", {specimens_table(result)}});
-  if (auto notes = texts("Notes", list_of(result, "notes"))) page.sections.push_back(*notes);
+  if (auto notes = remarks("Notes", list_of(result, "notes"))) page.sections.push_back(*notes);
   for (const Json& specimen : list_of(result, "specimens"))
-    page.provenance.emplace_back("specimen " + text(specimen, "label"), "SHA-256 " + text(specimen, "sha256"));
+    page.provenance.emplace_back("specimen " + text(specimen, "label") + ", SHA-256", text(specimen, "sha256"));
   return page;
 }
 

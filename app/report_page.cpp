@@ -60,7 +60,7 @@ void add_provenance(report::Page& page, const Json& run) {
   for (const auto& [key, value] : run.items()) {
     if (key == "inputs" && value.is_array()) {
       for (const Json& input : value)
-        rows.emplace_back("input " + text(input, "file"), "SHA-256 " + text(input, "sha256"));
+        rows.emplace_back("input " + text(input, "file") + ", SHA-256", text(input, "sha256"));
     } else if (value.is_array()) {
       std::string line;
       for (const Json& item : value)

@@ -65,13 +65,23 @@ std::string with_unit(double value, const std::string& unit, int digits) {
 
 std::string value_words(const std::string& key, const Json& value) {
   if (value.is_null()) return "–";
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) {
+    std::string words = value.get<std::string>();
+    if (key == "unloading" || key == "cohesion_during_softening" || key == "broken_link_contact")
+      std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+  }
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (!value.is_number()) return value.dump();
   const Label label = label_of(key);
   // Counts are shown to the last digit, unless they have a unit of their own.
   if (!value.is_number_float() && label.factor == 1) return with_unit(value.get<double>(), label.unit, 15);
   return with_unit(label.factor * value.get<double>(), label.unit);
+}
+
+std::string capital(const std::string& words) {
+  if (words.empty() || words[0] < 'a' || words[0] > 'z') return words;
+  return static_cast<char>(words[0] - 'a' + 'A') + words.substr(1);
 }
 
 std::string people_unit(const std::string& unit) {
@@ -102,7 +112,7 @@ report::KeyValues rows_of(const Json& object, std::initializer_list<const char*>
   report::KeyValues table;
   for (const char* key : keys)
     if (const auto found = object.find(key); found != object.end() && found->is_primitive())
-      table.rows.emplace_back(label_of(key).words, value_words(key, *found));
+      table.rows.emplace_back(capital(label_of(key).words), value_words(key, *found));
   return table;
 }
 

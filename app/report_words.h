@@ -21,6 +21,8 @@ Label label_of(const std::string& key);
 std::string value_words(const std::string& key, const Json& value);
 /// A number that is already in `unit`: "3.12 MPa"; digits are the significant ones.
 std::string with_unit(double value, const std::string& unit, int digits = 4);
+/// With a capital letter at its beginning.
+std::string capital(const std::string& words);
 /// "permil" -> "‰", "J/m2" -> "J/m²", "-" -> "".
 std::string people_unit(const std::string& unit);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 
 #include "libdem/core/atomic_file.h"
 #include "report/assets.h"
@@ -25,11 +26,15 @@ void check(const Chart& chart) {
   }
 }
 
+// "3.12", "−0.4 %", "± 2 %"; a dash, for a number that is not there, does too.
 bool reads_as_number(const std::string& cell) {
-  if (cell.empty()) return false;
+  if (cell == "–") return true;
+  const char* begin = cell.c_str();
+  for (const std::string_view sign : {"−", "± "})
+    if (cell.starts_with(sign)) begin += sign.size();
   char* end = nullptr;
-  std::strtod(cell.c_str(), &end);
-  return end != cell.c_str() && (*end == '\0' || *end == ' ' || *end == '%');
+  std::strtod(begin, &end);
+  return end != begin && (*end == '\0' || *end == ' ' || *end == '%');
 }
 
 // The error as a dot within its tolerance, drawn over twice the tolerance to either side; farther out it sits
@@ -57,6 +62,12 @@ class Writer {
       if (end > begin) html += fmt::format("<p>{}</p>\n", escape(text.body.substr(begin, end - begin)));
       begin = end + 2;
     }
+  }
+
+  void operator()(const List& list) {
+    html += "<ul class=\"remarks\">\n";
+    for (const std::string& item : list.items) html += fmt::format("<li>{}</li>\n", escape(item));
+    html += "</ul>\n";
   }
 
   void operator()(const KeyValues& table) {

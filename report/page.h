@@ -16,6 +16,11 @@ struct Text {
   std::string body;
 };
 
+/// Short remarks, one a line with a mark before it.
+struct List {
+  std::vector<std::string> items;
+};
+
 /// Names and values, one pair a row, e.g. {"E", "30.0 GPa"}.
 struct KeyValues {
   std::vector<std::pair<std::string, std::string>> rows;
@@ -76,7 +81,7 @@ struct Chart {
   std::string caption = "";  ///< one or two sentences below
 };
 
-using Block = std::variant<Text, KeyValues, Table, Targets, Chart>;
+using Block = std::variant<Text, List, KeyValues, Table, Targets, Chart>;
 
 struct Section {
   std::string title;
