@@ -13,8 +13,9 @@
 namespace calibrate {
 namespace {
 
-constexpr double poisson_scale = 0.2;      // an error of 0.002 in nu weighs like one of 1% in E
-constexpr double operating_weight = 10.0;  // of the point that the card is for, against the others
+constexpr double poisson_scale =
+    0.05;  // an error of 0.0005 in nu weighs like one of 1% in E: alpha is nu's alone
+constexpr double operating_weight = 3.0;  // of the point that the card is for, against the others
 
 /// Eq. 1 against one measured point.
 struct MicroMacroResidual {

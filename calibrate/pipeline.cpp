@@ -84,21 +84,10 @@ TestProtocol protocol_for(const CalibrationCase& wanted) {
   return protocol;
 }
 
-/// Linear in the logarithms between the points of a table, extended at its ends.
-double log_interpolate(const std::vector<std::pair<double, double>>& table, double at) {
-  std::size_t k = 1;
-  while (k + 1 < table.size() && at > table[k].first) ++k;
-  const auto& [x0, y0] = table[k - 1];
-  const auto& [x1, y1] = table[k];
-  return y0 * std::pow(at / x0, std::log(y1 / y0) / std::log(x1 / x0));
-}
-
 /// Where the fit starts if the case does not say. The tables are measured on a 2,700-element box (nu 0.2); they
 /// only save evaluations. Where zeta is left to fc/ft, the start is the most brittle pair: Co so high that fc
 /// no longer feels it, zeta just large enough for the ratio. The fit lowers Co from there.
 void choose_start(const CalibrationCase& wanted, dem::MaterialCard& card) {
-  static const std::vector<std::pair<double, double>> strength_by_zeta{
-      {1, 0.68}, {2, 0.79}, {5, 1.0}, {8, 1.15}, {15, 1.46}, {25, 1.87}, {40, 2.34}};
   static const std::vector<std::pair<double, double>> zeta_by_ratio_free{
       {5.5, 3}, {9.0, 8}, {10.9, 15}, {12.9, 25}, {16.3, 40}};
   static const std::vector<std::pair<double, double>> zeta_by_ratio_fixed{
@@ -117,9 +106,8 @@ void choose_start(const CalibrationCase& wanted, dem::MaterialCard& card) {
   }
   card.softening = std::clamp(card.softening, wanted.softening.low, wanted.softening.high);
   const double expected = ft != nullptr ? ft->value : 0.1 * fc->value;
-  card.tensile_strength = wanted.tensile_strength.given
-                              ? wanted.tensile_strength.value
-                              : expected / log_interpolate(strength_by_zeta, card.softening);
+  card.tensile_strength = wanted.tensile_strength.given ? wanted.tensile_strength.value
+                                                        : expected / expected_strength_ratio(card.softening);
   card.tensile_strength =
       std::clamp(card.tensile_strength, wanted.tensile_strength.low, wanted.tensile_strength.high);
   card.cohesion = wanted.cohesion.given ? wanted.cohesion.value : 5 * card.tensile_strength;
@@ -322,25 +310,24 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
     both.tension = both.tension || needs_tension(t.quantity),
     both.compression = both.compression || needs_compression(t.quantity);
 
-  result.stages.push_back(
-      fit_stage("tension", wanted, bench, card, tension_slots, tension_targets, {true, false},
-                {.first_step = 0.1, .last_step = 0.003, .good_enough = 0.25, .max_evaluations = 25}, watch));
-  result.stages.push_back(
-      fit_stage("compression", wanted, bench, card, {slot_Co()}, compression_targets, {false, true},
-                {.first_step = 0.25, .last_step = 0.01, .good_enough = 0.25, .max_evaluations = 12}, watch));
-  result.stages.push_back(
-      fit_stage("closing", wanted, bench, card, {slot_T(), slot_zeta(), slot_Co()}, all_targets, both,
-                {.first_step = 0.15, .last_step = 0.004, .good_enough = 0.4, .max_evaluations = 40}, watch));
+  result.stages.push_back(fit_stage("tension", wanted, bench, card, tension_slots, tension_targets,
+                                    {true, false}, {.good_enough = 0.25, .max_evaluations = 15}, watch));
+  result.stages.push_back(fit_stage("compression", wanted, bench, card, {slot_Co()}, compression_targets,
+                                    {false, true},
+                                    {.first_radius = 1, .good_enough = 0.25, .max_evaluations = 8}, watch));
+  result.stages.push_back(fit_stage("closing", wanted, bench, card, {slot_T(), slot_zeta(), slot_Co()},
+                                    all_targets, both, {.good_enough = 0.4, .max_evaluations = 20}, watch));
 
   report("sensitivity", 0, 0, "what the data determine");
   result.identifiability = assess(wanted, bench, card);
 
   report("check", 0, 0, fmt::format("{} specimens that the fit never saw", unseen.specimens.size()));
   TestBench check(unseen.specimens, protocol_for(wanted), journal, threads);
-  result.specimens = outcomes(wanted, fitted, bench, card, both, true, threads);
+  const Round each{true, true};  // the finished card shows both tests, aimed at or not
+  result.specimens = outcomes(wanted, fitted, bench, card, each, true, threads);
   result.targets = mean_targets(result.specimens);
   if (!unseen.specimens.empty()) {
-    std::vector<SpecimenOutcome> fresh = outcomes(wanted, unseen, check, card, both, false, threads);
+    std::vector<SpecimenOutcome> fresh = outcomes(wanted, unseen, check, card, each, false, threads);
     result.unseen_targets = mean_targets(fresh);
     for (const SpecimenOutcome& o : fresh)
       for (const TargetResult& r : o.targets)

@@ -27,6 +27,14 @@ const ParameterSlot& slot_T();
 const ParameterSlot& slot_zeta();
 const ParameterSlot& slot_Co();
 
+/// Linear in the logarithms between the points of a table, extended at its ends.
+double log_interpolate(const std::vector<std::pair<double, double>>& table, double at);
+
+/// ft/T as it grows with zeta, measured on a 2,700-element box at nu = 0.2 (`spall test tension`). Only to
+/// start and to steer the fit: where T and zeta are fitted together the search moves T * ratio(zeta), which ft
+/// sees, and zeta, which fc and the tension's ductility see, instead of two parameters that undo each other.
+double expected_strength_ratio(double zeta);
+
 /// Called after each evaluation of a stage.
 struct StageStep {
   std::string stage;
