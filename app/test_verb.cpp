@@ -1,7 +1,9 @@
 // spall test elastic | tension | compression
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "app/console.h"
 #include "app/output.h"
@@ -12,6 +14,7 @@
 #include "libdem/core/units.h"
 #include "specimens/specimen_file.h"
 #include "specimens/virtual_tests/elastic.h"
+#include "specimens/virtual_tests/fields.h"
 #include "specimens/virtual_tests/setup.h"
 #include "specimens/virtual_tests/uniaxial.h"
 
@@ -23,6 +26,7 @@ using Json = nlohmann::ordered_json;
 struct TestOptions {
   CommonOptions common;
   std::string specimen, card, output, axis, velocity, max_strain, ends = "free";
+  bool resume = false;
   virtual_tests::UniaxialOptions uniaxial;
 };
 
@@ -121,6 +125,39 @@ Json result_of(const virtual_tests::UniaxialResult& found, const virtual_tests::
   return result;
 }
 
+/// The command that goes on: what was typed, quoted for a shell, with --resume.
+std::string command_to_go_on(const Invocation& invocation) {
+  std::string command;
+  for (const std::string& word : invocation.arguments) {
+    if (word == "--resume") continue;
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
+      return std::isalnum(letter) != 0 ||
+             std::string_view("_-+=./,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    });
+    std::string quoted = word;
+    for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4)
+      quoted.replace(at, 1, "'\\''");
+    command += plain ? word + " " : "'" + quoted + "' ";
+  }
+  return command + "--resume";
+}
+
+/// Runs it from the checkpoint if that is wanted; a stop leaves a checkpoint and says how to go on.
+virtual_tests::UniaxialResult run_or_stop(const TestOptions& options, const Invocation& invocation,
+                                          const Inputs& inputs, const virtual_tests::UniaxialOptions& asked,
+                                          Console& console) {
+  const std::filesystem::path checkpoint = inputs.folder.file("checkpoint.h5");
+  if (options.resume && !std::filesystem::exists(checkpoint))
+    console.remark(fmt::format("{}: there is nothing to go on from; starting anew", checkpoint.string()));
+  try {
+    return virtual_tests::run_uniaxial(inputs.specimen, inputs.card, asked, console.progress(),
+                                       {.file = checkpoint, .resume = options.resume});
+  } catch (const dem::Interrupted& stop) {
+    throw dem::Interrupted(fmt::format("{}; its state is kept in {}: go on with {}", stop.what(),
+                                       checkpoint.string(), command_to_go_on(invocation)));
+  }
+}
+
 int run_uniaxial(const TestOptions& options, const Invocation& invocation, virtual_tests::Loading loading) {
   virtual_tests::UniaxialOptions asked = options.uniaxial;
   asked.loading = loading;
@@ -132,17 +169,11 @@ int run_uniaxial(const TestOptions& options, const Invocation& invocation, virtu
   const Inputs inputs = read_inputs(options, invocation);
   asked.axis = inputs.axis;
   Console console(options.common);
-  const auto found = [&] {
-    try {
-      return virtual_tests::run_uniaxial(inputs.specimen, inputs.card, asked, console.progress());
-    } catch (const dem::Interrupted& stop) {
-      throw dem::Interrupted(
-          fmt::format("{}; nothing was written in {}: run the same command again to start anew", stop.what(),
-                      options.output));
-    }
-  }();
+  const auto found = run_or_stop(options, invocation, inputs, asked, console);
 
   dem::write_file_atomically(inputs.folder.file("curves.csv"), virtual_tests::to_csv(found.curve));
+  virtual_tests::write_element_fields(inputs.folder.file("fields.h5"), inputs.specimen, found);
+  virtual_tests::write_link_fields(inputs.folder.file("links.h5"), inputs.specimen, found);
   console.say(fmt::format("peak {:.4g} MPa at {:.4g} permil, {} of {} links broken, {} steps in {}",
                           found.peak_stress / 1e6, found.peak_strain * 1e3, found.broken_links, found.links,
                           found.steps, duration(found.wall_seconds)));
@@ -153,6 +184,8 @@ int run_uniaxial(const TestOptions& options, const Invocation& invocation, virtu
         fmt::format("not quasi-static: the platens differ by {:.1f}%; lower --velocity (it was {:.3g} m/s)",
                     100 * found.unbalanced_force_ratio, found.velocity));
   finish(console, inputs, result_of(found, asked, inputs.specimen));
+  std::error_code ignored;  // a finished test needs none; one that stays does no harm
+  std::filesystem::remove(inputs.folder.file("checkpoint.h5"), ignored);
   return done;
 }
 
@@ -172,7 +205,9 @@ void add_test(CLI::App& root, Invocation& invocation) {
     verb->add_option("--specimen", options->specimen, "Specimen (HDF5)")->required();
     verb->add_option("--card", options->card, "Material card (TOML)")->required();
     verb->add_option("-o,--output", options->output,
-                     "Folder for result.json, run.json, curves.csv, report.html")
+                     name == "elastic"
+                         ? "Folder for result.json, run.json, report.html"
+                         : "Folder for result.json, run.json, curves.csv, report.html, fields.h5, links.h5")
         ->required();
     verb->add_option("--axis", options->axis, "Loading axis: x, y or z (default: the specimen's long axis)")
         ->check(CLI::IsMember({"x", "y", "z"}));
@@ -199,6 +234,7 @@ void add_test(CLI::App& root, Invocation& invocation) {
                                  tension ? "0.15" : "0.6"))
         ->check(number_between(0.001, 0.999));
     verb->add_option("--max-strain", options->max_strain, "End at this strain at the latest, as \"3 permil\"");
+    verb->add_flag("--resume", options->resume, "Go on from the checkpoint in the output folder");
   }
 }
 

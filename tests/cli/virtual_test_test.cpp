@@ -1,6 +1,7 @@
 // spall test and spall report: what a run leaves, and what it refuses before it computes.
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -103,16 +104,57 @@ TEST_F(VirtualTest, AFolderThatCannotBeWrittenIsExitCode1) {
               HasSubstr("/proc/x"));
 }
 
-TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndWithoutAResult) {
+TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
   make_specimen();
-  // Slow enough to be running for minutes.
-  const pid_t child = start(test("compression", {"--velocity", "0.0001 m/s"}));
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  ::kill(child, SIGTERM);
-  const auto outcome = wait_for(child);
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("run the same command again"));
+  // Slow enough to be running for seconds.
+  const std::vector<std::string> command = test("compression", {"--velocity", "0.012 m/s", "--threads", "1"});
+  std::vector<std::string> elsewhere = command;
+  *std::find(elsewhere.begin(), elsewhere.end(), "out") = "whole";
+  ASSERT_EQ(spall(elsewhere).code, 0);
+
+  const pid_t child = start(command);
+  // Its first line of progress says that it is running.
+  for (int k = 0; k < 400 && read(".said/err").find("steps") == std::string::npos; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ::kill(child, SIGINT);
+  const auto stopped = wait_for(child);
+  ASSERT_EQ(stopped.code, 3) << stopped.err;
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("out/checkpoint.h5"), HasSubstr("--velocity '0.012 m/s'"),
+                                 HasSubstr("--threads 1 --resume\n")));
   EXPECT_THAT(files(), Not(testing::Contains("out/result.json")));
+
+  // Only the same inputs may go on.
+  std::vector<std::string> resume = command;
+  resume.push_back("--resume");
+  write("card.toml", replaced(good_card, "36 MPa", "35 MPa"));
+  EXPECT_THAT(refusal(2, resume), AllOf(HasSubstr("checkpoint.h5"), HasSubstr("another card")));
+  write("card.toml", good_card);
+  const std::string checkpoint = read("out/checkpoint.h5");
+  write("out/checkpoint.h5", checkpoint.substr(0, checkpoint.size() / 2));
+  EXPECT_THAT(refusal(2, resume), HasSubstr("checkpoint.h5"));
+  write("out/checkpoint.h5", checkpoint);
+
+  // What the message says, pasted into a shell.
+  const std::string said = stopped.err.substr(stopped.err.find("go on with ") + 11);
+  const auto resumed = shell(said);
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const auto result = json("out/result.json"), whole = json("whole/result.json");
+  for (const char* key : {"state_sha256", "steps", "peak_stress", "peak_strain", "E", "nu", "broken_links",
+                          "energy_balance_error"})
+    EXPECT_EQ(result[key], whole[key]) << key;
+  EXPECT_EQ(read("out/curves.csv"), read("whole/curves.csv"));
+  EXPECT_EQ(read("out/fields.h5"), read("whole/fields.h5"));
+  EXPECT_EQ(read("out/links.h5"), read("whole/links.h5"));
+  EXPECT_THAT(files(), Not(testing::Contains("out/checkpoint.h5")));
+}
+
+TEST_F(VirtualTest, ResumeWithoutACheckpointSaysSoAndStartsAnew) {
+  make_specimen();
+  const auto run = spall(test("tension", {"--max-strain", "0.01 permil", "--threads", "1", "--resume"}));
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("nothing to go on from"));
+  EXPECT_THAT(files(), IsSupersetOf({"out/result.json", "out/fields.h5", "out/links.h5"}));
 }
 
 TEST_F(VirtualTest, ReportNeedsAFinishedRun) {
