@@ -56,6 +56,53 @@ TEST_F(Calibrate, LeavesCardResultCurvesAndReport) {
   EXPECT_EQ(json("out/run.json")["seeds"], (nlohmann::json{1, 2}));
 }
 
+TEST_F(Calibrate, ThePageHasTheNumbersAndComesAgainFromTheFiles) {
+  // Three tension tests that differ a little: a mean and a band, though no curve is a target.
+  for (int k = 0; k < 3; ++k) {
+    std::string csv = "strain[permil],stress[MPa]\n";
+    const double peak = 2.9 + 0.1 * k;
+    for (int i = 0; i <= 60; ++i) {
+      const double x = i / 30.0;  // 1 at the peak
+      csv += std::to_string(0.1765 * x) + "," + std::to_string(peak * (x < 1 ? x * (2 - x) : 1 - 0.7 * (x - 1))) +
+             "\n";
+    }
+    write("tension" + std::to_string(k) + ".csv", csv);
+  }
+  write("case.toml",
+        replaced(good_case, "ft = \"3 MPa\"", "ft = \"3 MPa\"\n[tension]\ncurves = [\"tension*.csv\"]"));
+  const auto run = spall({"calibrate", "case.toml", "-o", "out", "--quiet"});
+  ASSERT_TRUE(run.code == 0 || run.code == 4) << run.err;
+  const auto result = json("out/result.json");
+  ASSERT_EQ(result["curves"].size(), 1u);
+  EXPECT_EQ(result["curves"][0]["name"], "tension");
+  EXPECT_GT(result["curves"][0]["rmse_rel"].get<double>(), 0);
+  EXPECT_LT(result["curves"][0]["rmse_rel"].get<double>(), 0.5);
+  for (const char* key :
+       {"concrete", "notes", "history", "sensitivity", "laboratory", "unseen_targets", "ends"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  EXPECT_EQ(result["elastic_fit"]["points"].size(), 10u);
+  const std::string curves = read("out/curves.csv");
+  EXPECT_THAT(curves, testing::StartsWith("test,curve,kind,strain[-],stress[Pa]\n"));
+  for (const char* kind : {",fitted,", ",unseen,", ",laboratory,", ",band low,", ",band high,"})
+    EXPECT_THAT(curves, HasSubstr(kind));
+
+  const std::string page = read("out/report.html");
+  for (const char* words : {"Tensile strength", "3 MPa", "30 GPa", "On specimens that the fit never saw",
+                            "laboratory, lowest to highest", "seed 1, fitted", "seed 2, unseen", "Ks/Kn",
+                            "Path of the parameters", "Softening ζ", "held at this value by"})
+    EXPECT_THAT(page, HasSubstr(words));
+  EXPECT_LT(page.size(), 1000000u);
+  std::filesystem::remove(folder / "out/report.html");
+  ASSERT_EQ(spall({"report", "out"}).code, 0);
+  EXPECT_EQ(read("out/report.html"), page);
+}
+
+TEST_F(Calibrate, AResultOfAnotherShapeIsRefusedByThePage) {
+  std::filesystem::create_directory(folder / "out");
+  write("out/result.json", "{\"card\": 3, \"targets\": {\"E\": 30}}");
+  EXPECT_THAT(refusal(2, {"report", "out"}), HasSubstr("result.json"));
+}
+
 TEST_F(Calibrate, ATargetOutOfReachIsExitCode4AndTheCardSaysSo) {
   // The bound holds T far below what 3 MPa needs.
   write("case.toml", replaced(good_case, "zeta = 5", "zeta = 5\nT = \"1 MPa\""));

@@ -169,6 +169,20 @@ TEST(Report, PutsTicksAtRoundNumbers) {
               testing::ElementsAre("0.01", "0.1", "1", "10", "100"));
 }
 
+TEST(Report, ShowsSourcesWorstSpecimensRemarksAndThinLines) {
+  report::Page page = example();
+  auto& targets = std::get<report::Targets>(page.sections[0].blocks[1]);
+  EXPECT_THAT(report::to_html(page), Not(HasSubstr("Worst single")));
+  targets.rows[0].source = "mean of <5> curves";
+  targets.rows[0].worst = -0.0321;
+  page.sections[0].blocks.emplace_back(report::List{{"zeta & Co"}});
+  std::get<report::Chart>(page.sections[1].blocks[0]).series[1].thin = true;
+  const std::string html = report::to_html(page);
+  for (const char* expected : {"Worst single", "−3.21 %", "mean of &lt;5&gt; curves", "<li>zeta &amp; Co</li>",
+                               "class=\"line thin c0\"", "\"thin\":true"})
+    EXPECT_THAT(html, HasSubstr(expected));
+}
+
 TEST(Report, WritesNumbersForReaders) {
   EXPECT_EQ(report::number_text(2.8222), "2.822");
   EXPECT_EQ(report::number_text(30000), "30000");
