@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "calibrate/elastic_stage.h"
-#include "libdem/law/cohesive_link.h"
 #include "libdem/drive/platens.h"
+#include "libdem/law/cohesive_link.h"
 #include "libdem/run/step.h"
 #include "specimens/packing.h"
 #include "specimens/virtual_tests/elastic.h"

@@ -26,8 +26,8 @@ struct Inspection {
   double solid_fraction = 0;     ///< volume of the elements over `volume`
   double density_variation = 0;  ///< standard deviation of the solid fraction of the inner slices along the
                                  ///< longest axis, each two element sizes thick, over its mean
-  double element_size = 0;     ///< (volume / elements)^(1/3)
-  double elements_across = 0;  ///< smallest side over element_size
+  double element_size = 0;       ///< (volume / elements)^(1/3)
+  double elements_across = 0;    ///< smallest side over element_size
   double radius_min = 0;
   double radius_max = 0;
   double radius_mean = 0;

@@ -255,7 +255,8 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, std::si
   }
   const hid_t type = memory_type<T>();
   const Handle made(H5Dcreate2(self->file, name.c_str(), type, space, way, how, H5P_DEFAULT), H5Dclose);
-  if (!made || (!values.empty() && H5Dwrite(made, type, everything, everything, H5P_DEFAULT, values.data()) < 0))
+  if (!made ||
+      (!values.empty() && H5Dwrite(made, type, everything, everything, H5P_DEFAULT, values.data()) < 0))
     self->cannot_write("dataset " + name);
 }
 
@@ -277,7 +278,8 @@ std::vector<T> Hdf5File::read(const std::string& name, std::size_t columns, std:
   const auto count = static_cast<double>(found[0]) * static_cast<double>(std::max<std::size_t>(columns, 1));
   self->require_plausible(name, count < 1e18 ? static_cast<std::size_t>(count) : any, sizeof(T));
   std::vector<T> values(found[0] * std::max<std::size_t>(columns, 1));
-  if (!values.empty() && H5Dread(dataset, memory_type<T>(), everything, everything, H5P_DEFAULT, values.data()) < 0)
+  if (!values.empty() &&
+      H5Dread(dataset, memory_type<T>(), everything, everything, H5P_DEFAULT, values.data()) < 0)
     self->wrong("dataset " + name, "cannot be read (truncated or damaged)", make_again);
   return values;
 }

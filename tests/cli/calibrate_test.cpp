@@ -63,8 +63,8 @@ TEST_F(Calibrate, ThePageHasTheNumbersAndComesAgainFromTheFiles) {
     const double peak = 2.9 + 0.1 * k;
     for (int i = 0; i <= 60; ++i) {
       const double x = i / 30.0;  // 1 at the peak
-      csv += std::to_string(0.1765 * x) + "," + std::to_string(peak * (x < 1 ? x * (2 - x) : 1 - 0.7 * (x - 1))) +
-             "\n";
+      csv += std::to_string(0.1765 * x) + "," +
+             std::to_string(peak * (x < 1 ? x * (2 - x) : 1 - 0.7 * (x - 1))) + "\n";
     }
     write("tension" + std::to_string(k) + ".csv", csv);
   }

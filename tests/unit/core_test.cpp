@@ -19,8 +19,10 @@ TEST(Units, ConvertToSi) {
   EXPECT_DOUBLE_EQ(dem::parse_quantity("6 degree", Quantity::angle, "t"), 6 * M_PI / 180);
   EXPECT_DOUBLE_EQ(dem::parse_quantity("0.2", Quantity::ratio, "t"), 0.2);
   EXPECT_DOUBLE_EQ(dem::parse_quantity("2.4 permil", Quantity::ratio, "t"), 2.4e-3);
-  EXPECT_THAT(dem::parse_quantities("0.5x0.25x0.25 m", Quantity::length, "t"), testing::ElementsAre(0.5, 0.25, 0.25));
-  EXPECT_THAT(dem::parse_quantities("1.25,1.0,0.14 m", Quantity::length, "t"), testing::ElementsAre(1.25, 1.0, 0.14));
+  EXPECT_THAT(dem::parse_quantities("0.5x0.25x0.25 m", Quantity::length, "t"),
+              testing::ElementsAre(0.5, 0.25, 0.25));
+  EXPECT_THAT(dem::parse_quantities("1.25,1.0,0.14 m", Quantity::length, "t"),
+              testing::ElementsAre(1.25, 1.0, 0.14));
 }
 
 TEST(Units, RefuseWhatIsNoQuantityOfThatKind) {
@@ -64,8 +66,9 @@ TEST(AtomicFile, LeavesTheOldFileWhenWritingFails) {
   dem::require_writable_folder(folder);
   const auto file = folder / "a.txt";
   dem::write_file_atomically(file, "old");
-  EXPECT_THROW(dem::write_file_atomically(file, [](const std::filesystem::path&) { throw dem::RunError("disk full"); }),
-               dem::RunError);
+  EXPECT_THROW(
+      dem::write_file_atomically(file, [](const std::filesystem::path&) { throw dem::RunError("disk full"); }),
+      dem::RunError);
   std::ifstream in(file);
   std::string content;
   in >> content;
