@@ -15,36 +15,28 @@ namespace {
 
 constexpr double poisson_scale =
     0.05;  // an error of 0.0005 in nu weighs like one of 1% in E: alpha is nu's alone
-constexpr double operating_weight = 3.0;  // of the point that the card is for, against the others
 
 /// Eq. 1 against one measured point.
 struct MicroMacroResidual {
   ElasticPoint point;
-  double weight;
 
   template <class T>
   bool operator()(const T* abc, T* residual) const {
     const double r = point.shear_ratio;
     const T stiffness = (abc[1] + abc[2] * r) / (abc[0] + r);
     const T poisson = (1 - r) / (abc[0] + r);
-    residual[0] = weight * (stiffness / point.stiffness - 1.0);
-    residual[1] = weight * (poisson - point.poisson_ratio) / poisson_scale;
+    residual[0] = stiffness / point.stiffness - 1.0;
+    residual[1] = (poisson - point.poisson_ratio) / poisson_scale;
     return true;
   }
 };
 
-struct WeightedPoint {
-  ElasticPoint point;
-  double weight;
-};
-
-dem::Vec3 solve(const std::vector<WeightedPoint>& points, dem::Mat3* covariance) {
+dem::Vec3 solve(const std::vector<ElasticPoint>& points, dem::Mat3* covariance) {
   double abc[3] = {3.7, 2.2, 3.8};
   ceres::Problem problem;
-  for (const WeightedPoint& p : points)
+  for (const ElasticPoint& p : points)
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<MicroMacroResidual, 2, 3>(new MicroMacroResidual{p.point, p.weight}),
-        nullptr, abc);
+        new ceres::AutoDiffCostFunction<MicroMacroResidual, 2, 3>(new MicroMacroResidual{p}), nullptr, abc);
   for (int k = 0; k < 3; ++k) problem.SetParameterLowerBound(abc, k, 0.1);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -118,7 +110,7 @@ std::vector<ElasticPoint> mean_of(const std::vector<std::vector<ElasticPoint>>& 
 
 }  // namespace
 
-std::vector<double> default_ratios() { return {0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.55, 0.75, 1.0}; }
+std::vector<double> default_ratios() { return {0.05, 0.17, 0.29, 0.41, 0.53, 0.65, 0.77, 0.89, 1.0}; }
 
 std::vector<ElasticPoint> elastic_response(const specimens::Specimen& specimen,
                                            const std::vector<double>& ratios) {
@@ -153,21 +145,20 @@ ElasticFit fit_elastic(const std::vector<specimens::Specimen>& specimens, double
     }
   }
 
-  std::vector<WeightedPoint> points;
+  std::vector<ElasticPoint> points;
   for (std::size_t s = 0; s < specimens.size(); ++s) {
-    std::vector<WeightedPoint> own;
-    for (const ElasticPoint& p : all[s]) own.push_back({p, 1});
-    own.push_back({operating[s], operating_weight});
+    std::vector<ElasticPoint> own;
+    own = all[s];
+    own.push_back(operating[s]);
     fit.by_specimen.push_back(solve(own, nullptr));
     points.insert(points.end(), own.begin(), own.end());
   }
   const dem::Vec3 abc = solve(points, &fit.covariance);
   fit.alpha = abc[0], fit.beta = abc[1], fit.gamma = abc[2];
-  for (const WeightedPoint& p : points) {
-    fit.points.push_back(p.point);
-    const double r = p.point.shear_ratio,
-                 e = (fit.beta + fit.gamma * r) / (fit.alpha + r) / p.point.stiffness - 1;
-    const double n = (1 - r) / (fit.alpha + r) - p.point.poisson_ratio;
+  for (const ElasticPoint& p : points) {
+    fit.points.push_back(p);
+    const double r = p.shear_ratio, e = (fit.beta + fit.gamma * r) / (fit.alpha + r) / p.stiffness - 1;
+    const double n = (1 - r) / (fit.alpha + r) - p.poisson_ratio;
     fit.stiffness_rms += e * e / static_cast<double>(points.size());
     fit.poisson_rms += n * n / static_cast<double>(points.size());
   }

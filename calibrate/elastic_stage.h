@@ -31,8 +31,9 @@ struct ElasticFit {
 };
 
 /// Fits Eq. 1 to the specimens' answers: residuals of E relative, of nu absolute (it tends to 0 at Ks/Kn = 1).
-/// Eq. 1 is not exact; the point where the specimens show `poisson_ratio` is weighted so that the card's own E
-/// and nu come out. Throws InputError if the specimens cannot show that ratio; Interrupted.
+/// The ratio at which the specimens show `poisson_ratio` is looked up and stands as a tenth point: Eq. 1 is not
+/// exact, and the card is for that point. Throws InputError if the specimens cannot show that Poisson's ratio;
+/// Interrupted.
 ElasticFit fit_elastic(const std::vector<specimens::Specimen>& specimens, double poisson_ratio, int threads);
 
 }  // namespace calibrate
