@@ -56,9 +56,10 @@ struct TomlTable::Access {
   std::string_view key;
 
   const toml::node* find() const {
-    Node& node = *owner.node;
-    if (std::find(node.asked.begin(), node.asked.end(), key) == node.asked.end()) node.asked.emplace_back(key);
-    return node.table->get(key);
+    Node& whole = *owner.node;
+    if (std::find(whole.asked.begin(), whole.asked.end(), key) == whole.asked.end())
+      whole.asked.emplace_back(key);
+    return whole.table->get(key);
   }
   const toml::node& need(const std::string& remedy) const {
     const toml::node* found = find();

@@ -24,7 +24,8 @@
 #define SPALL_JOIN_(a, b) a##b
 #define SPALL_JOIN(a, b) SPALL_JOIN_(a, b)
 
-namespace dem::inline SPALL_ISA {
+namespace dem {
+inline namespace SPALL_ISA {
 
 inline constexpr int lane_count = SPALL_LANES;
 using Lanes = double __attribute__((vector_size(8 * SPALL_LANES)));
@@ -81,4 +82,5 @@ SPALL_INLINE double sum(Lanes value) {
   return total;
 }
 
-}  // namespace dem::inline SPALL_ISA
+}  // namespace SPALL_ISA
+}  // namespace dem

@@ -6,13 +6,13 @@
 #include "libdem/law/pair_kinematics.h"
 
 namespace dem {
-namespace SPALL_ISA {
+inline namespace SPALL_ISA {
 namespace {
 
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
-SPALL_INLINE Four load_four(const double* from) {
+[[maybe_unused]] SPALL_INLINE Four load_four(const double* from) {
   Four four;
   __builtin_memcpy(&four, from, sizeof four);
   return four;

@@ -41,7 +41,7 @@ struct LinkChoices {
   bool elastic_unloading = false, proportional_cohesion = false, contact_at_radii = false;
 };
 
-namespace SPALL_ISA {
+inline namespace SPALL_ISA {
 
 template <class Real>
 struct PairHistory {

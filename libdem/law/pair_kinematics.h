@@ -2,7 +2,8 @@
 #pragma once
 #include "libdem/core/lanes.h"
 
-namespace dem::inline SPALL_ISA {
+namespace dem {
+inline namespace SPALL_ISA {
 
 /// One element of a pair, see Kinematics.
 template <class Real>
@@ -53,4 +54,5 @@ SPALL_INLINE PairKinematics<Real> pair_kinematics(const PairElement<Real>& a, co
   return k;
 }
 
-}  // namespace dem::inline SPALL_ISA
+}  // namespace SPALL_ISA
+}  // namespace dem

@@ -5,7 +5,7 @@
 #include "libdem/core/lanes.h"
 
 namespace dem {
-namespace SPALL_ISA {
+inline namespace SPALL_ISA {
 namespace {
 
 using Eight = double __attribute__((vector_size(64)));
