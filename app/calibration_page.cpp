@@ -107,15 +107,23 @@ void add_verdict(report::Page& page, const Json& result) {
   const report::Targets unseen = unseen_targets(result);
   if (unseen.rows.empty()) return;
   std::size_t worst = 0;
-  bool held = true;
+  std::string beyond;
   for (std::size_t k = 0; k < unseen.rows.size(); ++k) {
-    held = held && unseen.rows[k].met;
-    if (std::abs(*unseen.rows[k].worst) > std::abs(*unseen.rows[worst].worst)) worst = k;
+    const report::Target& row = unseen.rows[k];
+    if (std::abs(*row.worst) > std::abs(*unseen.rows[worst].worst)) worst = k;
+    if (!row.met)
+      beyond += fmt::format("{}{} {} (allowed ± {})", beyond.empty() ? "" : "; ",
+                            text(result["unseen_targets"][k], "words"), report::signed_percent(*row.worst),
+                            percent(row.tolerance));
   }
-  words += fmt::format(" On specimens that the fit never saw, the worst single error is {} ({}){}.",
-                       report::signed_percent(*unseen.rows[worst].worst),
-                       text(result["unseen_targets"][worst], "words"),
-                       held ? "" : "; not all are within their tolerance");
+  words +=
+      beyond.empty()
+          ? fmt::format(
+                " On specimens that the fit never saw, all are within their tolerance too; the worst "
+                "single error is {} ({}).",
+                report::signed_percent(*unseen.rows[worst].worst),
+                text(result["unseen_targets"][worst], "words"))
+          : fmt::format(" On specimens that the fit never saw, single ones are out of tolerance: {}.", beyond);
 }
 
 std::string size_words(const Json& specimen) {

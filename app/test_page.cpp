@@ -54,9 +54,10 @@ report::Chart stress_chart(const std::vector<Column>& columns, bool compression)
     chart.series.push_back(std::move(mark));
   }
   chart.caption =
-      compression ? "Compression and shortening are positive; lateral expansion is negative, to the left."
-                  : "Tension and elongation are positive; lateral contraction is negative, to the left. Once "
-                    "a crack opens outside the gauge, the gauge relaxes while the platens go on.";
+      compression
+          ? "Compression and shortening are positive; lateral expansion is negative, to the left."
+          : "Tension and elongation are positive; lateral contraction is negative, to the left. After the "
+            "peak the gauge sees the crack only if it runs through the gauge.";
   return chart;
 }
 

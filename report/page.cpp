@@ -37,11 +37,12 @@ bool reads_as_number(const std::string& cell) {
   return end != begin && (*end == '\0' || *end == ' ' || *end == '%');
 }
 
-// The error as a dot within its tolerance, drawn over twice the tolerance to either side; farther out it sits
-// at the edge.
+// The error (the worst single one, if there are several) as a dot within its tolerance, drawn over twice the
+// tolerance to either side; farther out it sits at the edge.
 std::string deviation_svg(const Target& target) {
-  if (!std::isfinite(target.relative_error) || !(target.tolerance > 0)) return "";
-  const double place = 60 + 27.5 * std::clamp(target.relative_error / target.tolerance, -2.0, 2.0);
+  const double error = target.worst.value_or(target.relative_error);
+  if (!std::isfinite(error) || !(target.tolerance > 0)) return "";
+  const double place = 60 + 27.5 * std::clamp(error / target.tolerance, -2.0, 2.0);
   return fmt::format(
       "<svg class=\"deviation\" viewBox=\"0 0 120 16\" aria-hidden=\"true\"><path class=\"reach\" d=\"M2 "
       "8H118\"/>"
