@@ -78,7 +78,7 @@ std::string explain(const CLI::App& root, const CLI::ParseError& error,
     path += " " + arguments[next++];
   }
   if (const auto names = names_of_verbs(*verb); !names.empty()) {
-    if (next < arguments.size() && arguments[next].rfind("-", 0) != 0)
+    if (next < arguments.size() && !arguments[next].starts_with('-'))
       return fmt::format("{}: \"{}\" is no verb; {}", path, arguments[next],
                          dem::suggestion(arguments[next], names));
     if (next >= arguments.size())

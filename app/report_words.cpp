@@ -58,7 +58,7 @@ Label label_of(const std::string& key) {
 }
 
 std::string with_unit(double value, const std::string& unit, int digits) {
-  const std::string shown = report::number_text(value, digits);
+  std::string shown = report::number_text(value, digits);
   if (unit.empty() || !std::isfinite(value)) return shown;
   return shown + (unit == "°" ? "" : " ") + unit;
 }

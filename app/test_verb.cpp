@@ -195,7 +195,8 @@ void add_test(CLI::App& root, Invocation& invocation) {
   CLI::App* test = root.add_subcommand("test", "Run a virtual laboratory test on a specimen");
   test->require_subcommand(1);
   const auto options = std::make_shared<TestOptions>();
-  const auto add = [&](const std::string& name, const std::string& description, std::function<int()> action) {
+  const auto add = [&](const std::string& name, const std::string& description,
+                       const std::function<int()>& action) {
     const std::string example =
         "spall card example -o card.toml\n"
         "spall specimen make --size \"0.4x0.2x0.2 m\" --elements 1400 --seed 1 -o s1.h5\n"

@@ -248,7 +248,7 @@ bool TomlTable::boolean(std::string_view key, bool fallback) const {
 std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& names) const {
   const Access access{*this, key};
   const std::string remedy = fmt::format("allowed: {}", fmt::join(names, ", "));
-  const std::string chosen = access.as_text(access.need(remedy));
+  std::string chosen = access.as_text(access.need(remedy));
   if (std::find(names.begin(), names.end(), chosen) == names.end())
     fail(key, fmt::format("\"{}\" is no choice here", printable(chosen)), suggestion(chosen, names));
   return chosen;

@@ -179,7 +179,7 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
     throw InputError(name, is_hdf5 == 0 ? "is not an HDF5 file" : "cannot be read",
                      "give a file that Spall wrote (*.h5)");
   }
-  return Hdf5File(std::unique_ptr<Implementation>(new Implementation{path, std::move(file)}));
+  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
@@ -187,7 +187,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   Handle file(H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   if (!file)
     throw RunError(fmt::format("{}: cannot be created; is the folder there and writable?", path.string()));
-  return Hdf5File(std::unique_ptr<Implementation>(new Implementation{path, std::move(file)}));
+  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
 void Hdf5File::close() {
@@ -329,7 +329,7 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
     char* text = nullptr;
     const Handle memory(H5Tcopy(type), H5Tclose);
     if (H5Aread(attribute, memory, &text) < 0) self->wrong(what, "cannot be read", make_again);
-    const std::string copy = text != nullptr ? text : "";
+    std::string copy = text != nullptr ? text : "";
     H5free_memory(text);
     return copy;
   }
