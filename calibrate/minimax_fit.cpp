@@ -113,8 +113,9 @@ MinimaxResult fit_minimax(const std::vector<FitParameter>& parameters, const Res
   }
 
   double radius = options.first_radius;
-  while (best.worst > options.good_enough && best.evaluations < options.max_evaluations &&
-         radius > options.last_radius) {
+  int stalled = 0;  // evaluations in a row that brought nothing worth their time
+  while (best.worst > options.good_enough && stalled < (best.worst <= 1 ? 2 : 4) &&
+         best.evaluations < options.max_evaluations && radius > options.last_radius) {
     model.low.assign(count, -radius), model.high.assign(count, radius);
     for (std::size_t p = 0; p < count; ++p) {
       model.low[p] = std::max(model.low[p], std::log(parameters[p].low) - place[p]);
@@ -133,6 +134,7 @@ MinimaxResult fit_minimax(const std::vector<FitParameter>& parameters, const Res
       const double surprise = found[k].misfit - model.after(k, step.data()).misfit;
       for (std::size_t p = 0; p < count; ++p) model.slope[k][p] += surprise * step[p] / square;
     }
+    stalled = worst_of(found) < 0.9 * best.worst ? 0 : stalled + 1;
     if (worst_of(found) < best.worst) {
       place = next;
       model.at_best = found;
