@@ -76,8 +76,12 @@ Identifiability assess(const CalibrationCase& wanted, TestBench& bench, const de
                                    verdict.name, remedy(verdict.name));
     else if (!verdict.determined)
       verdict.remark = fmt::format(
-          "{} is not determined: changing it by a factor of {:.2g} stays within the targets' tolerances; {}",
-          verdict.name, std::exp(verdict.relative_uncertainty), remedy(verdict.name));
+          "{} is not determined: changing it by a factor of {} stays within the targets' tolerances; {}",
+          verdict.name,
+          verdict.relative_uncertainty > std::log(10)
+              ? std::string("ten or more")
+              : fmt::format("{:.2g}", std::exp(verdict.relative_uncertainty)),
+          remedy(verdict.name));
     result.parameters.push_back(verdict);
   }
   return result;
