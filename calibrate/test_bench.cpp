@@ -73,7 +73,7 @@ void TestJournal::save() const {
 
 TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, TestProtocol how, TestJournal& results,
                      int thread_count)
-    : all(wanted), protocol(std::move(how)), journal(results), threads(thread_count) {
+    : all(wanted), protocol(how), journal(results), threads(thread_count) {
   for (const specimens::Specimen& specimen : all) specimen_hashes.push_back(specimen.sha256());
 }
 
