@@ -32,8 +32,8 @@ Residual residual_of(const TargetResult& result, bool too_many) {
 }
 
 /// What the fit expects of one target before it has measured: exponents of T (or of T * ratio(zeta) where both
-/// are free), zeta and Co, read off the sweeps in docs/validation.md. Empty for a curve: that has to be
-/// measured.
+/// are free), zeta and Co, read off sweeps of `spall test` on a 2,700-element box: a start, which the fit
+/// corrects. Empty for a curve: that has to be measured.
 std::vector<double> expected_exponents(Quantity quantity) {
   switch (quantity) {
     case Quantity::tensile_strength:
