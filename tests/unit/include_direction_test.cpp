@@ -37,6 +37,7 @@ constexpr std::array kRooms = {
     "calibrate",
     "impact/fe",
     "impact/coupling",
+    "impact/impactors",
     "impact",
     "report",
     "study",
