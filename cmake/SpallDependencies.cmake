@@ -16,3 +16,7 @@ find_path(UDUNITS2_INCLUDE_DIR udunits2.h PATH_SUFFIXES udunits2 REQUIRED)
 add_library(udunits2 INTERFACE IMPORTED)
 target_link_libraries(udunits2 INTERFACE ${UDUNITS2_LIBRARY})
 target_include_directories(udunits2 INTERFACE ${UDUNITS2_INCLUDE_DIR})
+# Gmsh's header gives its functions their types; the library itself is loaded when a mesh file is read (impact/fe).
+find_path(GMSH_INCLUDE_DIR gmshc.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+file(REAL_PATH ${GMSH_LIBRARY} GMSH_RUNTIME_LIBRARY)

@@ -1,0 +1,58 @@
+#include "impact/fe/motion.h"
+
+#include <algorithm>
+
+#include "impact/fe/element_loop.h"
+#include "libdem/core/instructions.h"
+
+namespace fe {
+namespace {
+
+constexpr std::size_t elements_per_block = 128;
+
+ElementLoop chosen_element_loop() {
+  static const ElementLoop chosen = dem::choose_instructions(baseline_fe_element_loop
+#ifdef SPALL_X86
+                                                             ,
+                                                             avx2_fe_element_loop, avx512_fe_element_loop
+#endif
+  );
+  return chosen;
+}
+
+}  // namespace
+
+void advance_positions(State& state, double time_step, int threads) {
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::size_t i = 0; i < state.nodes(); ++i) state.displacement[i] += time_step * state.velocity[i];
+}
+
+void internal_force(const Body& body, State& state, ElementRows& room, int threads) {
+  room.rows.resize(24 * body.elements());
+  const std::size_t blocks = (body.elements() + elements_per_block - 1) / elements_per_block;
+  const ElementLoop loop = chosen_element_loop();
+  const ElementLoopArguments arguments{body.stiffness.front().data(), body.element_class.data(),
+                                       body.connectivity.front().data(), state.displacement.front().data(),
+                                       room.rows.data()};
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::size_t block = 0; block < blocks; ++block)
+    loop(arguments, block * elements_per_block, std::min(body.elements(), (block + 1) * elements_per_block));
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::size_t i = 0; i < body.nodes(); ++i) {
+    double x = 0, y = 0, z = 0;
+    for (std::int32_t p = body.incidence_first[i]; p < body.incidence_first[i + 1]; ++p) {
+      const double* row =
+          &room.rows[3 * static_cast<std::size_t>(body.incidence_entry[static_cast<std::size_t>(p)])];
+      x += row[0], y += row[1], z += row[2];
+    }
+    state.force[i] = Vec3(-x, -y, -z);
+  }
+}
+
+void advance_velocities(State& state, double duration, int threads) {
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::size_t i = 0; i < state.nodes(); ++i)
+    state.velocity[i] += duration * state.inverse_mass[i].cwiseProduct(state.force[i]);
+}
+
+}  // namespace fe
