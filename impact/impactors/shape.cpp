@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "impact/impactors/mass_properties.h"
 #include "libdem/core/error.h"
@@ -85,6 +86,19 @@ Eigen::AlignedBox3d box_of(const Cylinder& c) {
 }
 Eigen::AlignedBox3d box_of(const Mesh& mesh) { return mesh.surface->bounding_box(); }
 
+double reach_of(const Box& box, const Vec3& n) { return box.half_size.dot(n.cwiseAbs()); }
+double reach_of(const Sphere& sphere, const Vec3&) { return sphere.radius; }
+double reach_of(const Cylinder& c, const Vec3& n) {
+  const double rim = c.radius * std::hypot(n.x(), n.y());
+  if (c.nose == Nose::flat) return rim + std::max(c.back * n.z(), c.front * n.z());
+  return std::max(rim + c.back * n.z(), c.radius + (c.front - c.radius) * n.z());
+}
+double reach_of(const Mesh& mesh, const Vec3& n) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : mesh.surface->vertices()) farthest = std::max(farthest, p.dot(n));
+  return farthest;
+}
+
 }  // namespace
 
 Box make_box(const Vec3& size, const std::string& where) {
@@ -120,6 +134,10 @@ Nearest nearest(const Shape& shape, const Vec3& point) {
 
 Eigen::AlignedBox3d bounding_box(const Shape& shape) {
   return std::visit([](const auto& one) { return box_of(one); }, shape);
+}
+
+double reach_along(const Shape& shape, const Vec3& direction) {
+  return std::visit([&](const auto& one) { return reach_of(one, direction); }, shape);
 }
 
 Eigen::Quaterniond leading(Lead lead, const Vec3& half_size, const Vec3& direction) {

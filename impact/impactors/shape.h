@@ -55,6 +55,9 @@ Nearest nearest(const Shape& shape, const Vec3& point);
 /// The smallest box along the axes that holds the shape.
 Eigen::AlignedBox3d bounding_box(const Shape& shape);
 
+/// How far the shape reaches from its centre of mass along `direction`, a unit vector in its frame [m].
+double reach_along(const Shape& shape, const Vec3& direction);
+
 /// A part of a box that can strike first. For the paper's cube all three pass through the centre of mass.
 enum class Lead { face, edge, corner };
 

@@ -94,6 +94,14 @@ TEST(ImpactorShape, BoundingBoxesHoldTheShape) {
       touched.extend(on);
       EXPECT_LT(box.exteriorDistance(on), 1e-12);
     }
+    for (int k = 0; k < 100; ++k) {
+      // A plane that far away touches the shape: the point nearest to one far out on its normal lies in it.
+      const Vec3 n = impactor_scene::random_vector(random, 1).normalized();
+      EXPECT_NEAR(impact::nearest(shape, 1e4 * n).point.dot(n), impact::reach_along(shape, n), 1e-3);
+      EXPECT_LE(impact::nearest(shape, 10 * n).point.dot(n), impact::reach_along(shape, n) + 1e-12);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(impact::reach_along(shape, -Vec3::Unit(axis)), -box.min()[axis], 1e-12);
     EXPECT_LT((touched.sizes() - box.sizes()).norm(), 0.02) << shape.index();
   }
 }

@@ -38,6 +38,7 @@ constexpr std::array kRooms = {
     "impact/fe",
     "impact/coupling",
     "impact/impactors",
+    "impact/outcome",
     "impact",
     "report",
     "study",

@@ -37,7 +37,8 @@ TEST(ImpactorMesh, StlCubeIsTheBox) {
     }
     // Straight above faces, edges and corners, where features of the mesh meet.
     for (int k = 0; k < 27; ++k) {
-      const Vec3 p = Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).cwiseProduct(Vec3(0.17, 0.22, 0.27));
+      const int i = k % 3 - 1, j = k / 3 % 3 - 1, l = k / 9 - 1;
+      const Vec3 p = Vec3(i, j, l).cwiseProduct(Vec3(0.17, 0.22, 0.27));
       const impact::Nearest m = impact::nearest(mesh, p), e = impact::nearest(box, p);
       EXPECT_NEAR(m.distance, e.distance, 1e-12) << p.transpose();
     }
