@@ -1,13 +1,12 @@
 // A cell grid over points: who is near whom, in linear time and always in the same order.
 #pragma once
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "libdem/core/vector.h"
+#include "libdem/search/cell_frame.h"
 
 namespace dem {
 
@@ -48,35 +47,10 @@ class CellGrid {
   std::size_t cells() const { return start.empty() ? 0 : start.size() - 1; }
   std::size_t points() const { return index.size(); }
   /// The side of a cell [m]; larger than asked for where the points are spread thinly.
-  double cell_size() const { return size; }
+  double cell_size() const { return frame.size; }
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
-
-  // Clamping keeps the order along an axis, so two points within reach stay within `span_of(reach)` cells.
-  std::int64_t cell_along(int axis, double x) const {
-    const double position = std::floor((x - low[axis]) / size);
-    if (!(position > 0)) return 0;  // also when x is not a number
-    const double last = static_cast<double>(count[static_cast<std::size_t>(axis)] - 1);
-    return static_cast<std::int64_t>(std::min(position, last));
-  }
-  Cell cell_of(const Vec3& p) const {
-    return {cell_along(0, p.x()), cell_along(1, p.y()), cell_along(2, p.z())};
-  }
-  std::size_t number_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return static_cast<std::size_t>((z * count[1] + y) * count[0] + x);
-  }
-  // Cells to look at on each side; the small number covers the rounding of cell_along.
-  std::int64_t span_of(double reach) const {
-    const double span = std::ceil(reach / size + 1e-7);
-    const auto most = static_cast<double>(std::max({count[0], count[1], count[2]}));
-    return static_cast<std::int64_t>(std::clamp(span, 0.0, most));
-  }
-  void choose_cells(std::span<const Vec3> from, double cell_size);
-
-  Vec3 low = Vec3::Zero();
-  double size = 1;
-  Cell count{1, 1, 1};
+  CellFrame frame;
   std::vector<std::int32_t> start;  // of each cell in `index` and `sorted`
   std::vector<std::int32_t> index;  // of the points, cell by cell, ascending within a cell
   std::vector<Vec3> sorted;         // the points in that order
@@ -88,7 +62,8 @@ void CellGrid::for_each_pair_within(double reach, std::size_t first_cell, std::s
                                     Visit&& visit) const {
   if (!(reach >= 0)) return;
   const double reach2 = reach * reach;
-  const std::int64_t span = span_of(reach);
+  const std::int64_t span = frame.span_of(reach);
+  const CellFrame::Cell& count = frame.count;
   const auto meet = [&](std::int32_t a, std::int32_t b) {
     const auto ka = static_cast<std::size_t>(a), kb = static_cast<std::size_t>(b);
     if (!((sorted[ka] - sorted[kb]).squaredNorm() <= reach2)) return;
@@ -113,7 +88,8 @@ void CellGrid::for_each_pair_within(double reach, std::size_t first_cell, std::s
         const std::int64_t from = v == z && u == y ? x + 1 : std::max<std::int64_t>(x - span, 0);
         const std::int64_t to = std::min(x + span, count[0] - 1);
         if (from > to) continue;
-        const std::int32_t row_begin = start[number_of(from, u, v)], row_end = start[number_of(to, u, v) + 1];
+        const std::int32_t row_begin = start[frame.number_of(from, u, v)],
+                           row_end = start[frame.number_of(to, u, v) + 1];
         for (std::int32_t a = begin; a < end; ++a)
           for (std::int32_t b = row_begin; b < row_end; ++b) meet(a, b);
       }
@@ -124,17 +100,11 @@ template <class Visit>
 void CellGrid::for_each_near(const Vec3& point, double reach, Visit&& visit) const {
   if (!(reach >= 0) || cells() == 0) return;
   const double reach2 = reach * reach;
-  const std::int64_t span = span_of(reach);
-  const Cell at = cell_of(point);
-  Cell from, to;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    from[axis] = std::max<std::int64_t>(at[axis] - span, 0);
-    to[axis] = std::min(at[axis] + span, count[axis] - 1);
-  }
+  const auto [from, to] = frame.around(point, reach);
   for (std::int64_t z = from[2]; z <= to[2]; ++z)
     for (std::int64_t y = from[1]; y <= to[1]; ++y) {
-      const std::int32_t end = start[number_of(to[0], y, z) + 1];
-      for (std::int32_t k = start[number_of(from[0], y, z)]; k < end; ++k) {
+      const std::int32_t end = start[frame.number_of(to[0], y, z) + 1];
+      for (std::int32_t k = start[frame.number_of(from[0], y, z)]; k < end; ++k) {
         const auto slot = static_cast<std::size_t>(k);
         if ((sorted[slot] - point).squaredNorm() <= reach2) visit(index[slot]);
       }

@@ -8,6 +8,7 @@
 
 #include "libdem/core/random.h"
 #include "libdem/search/cell_grid.h"
+#include "libdem/search/cell_lists.h"
 
 using dem::CellGrid;
 using dem::Vec3;
@@ -125,4 +126,33 @@ TEST(CellGrid, RefusesACellThatIsNoSize) {
   for (const double cell :
        {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(CellGrid(points, cell), std::invalid_argument);
+}
+
+TEST(CellLists, FindWhatIsNearAfterAnyMoves) {
+  auto points = random_points(400, {1, 0.5, 0.2}, 8);
+  points.emplace_back(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  dem::CellLists lists;
+  lists.build(points, 0.1);
+  dem::Random random(9);
+  int found = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const auto i = static_cast<std::size_t>(random.below(points.size()));
+    // Most stay near, some leave the box of cells, one is lost.
+    const double far = n % 10 == 0 ? 3 : 0.1;
+    const double x = random.uniform(-far, far), y = random.uniform(-far, far), z = random.uniform(-far, far);
+    const Vec3 to =
+        n == 1000 ? Vec3(0, std::numeric_limits<double>::infinity(), 0) : Vec3(points[i] + Vec3(x, y, z));
+    lists.move(i, points[i], to);
+    points[i] = to;
+    std::multiset<int> near, all;
+    lists.for_each_near(points, to, 0.15, [&](int j) { near.insert(j); });
+    for (int j = 0; j < static_cast<int>(points.size()); ++j)
+      if ((points[static_cast<std::size_t>(j)] - to).squaredNorm() <= 0.15 * 0.15) all.insert(j);
+    ASSERT_EQ(near, all) << "move " << n;
+    found += static_cast<int>(all.size());
+  }
+  EXPECT_GT(found, 5000);
+  EXPECT_TRUE(lists.is_outgrown());
+  lists.build(points, 0.1);
+  EXPECT_FALSE(lists.is_outgrown());
 }
