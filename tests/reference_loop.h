@@ -13,7 +13,7 @@
 namespace reference {
 
 inline dem::PairElement<double> element(const dem::Kinematics& k) {
-  return {k.x, k.y, k.z, k.radius, k.vx, k.vy, k.vz, k.wx, k.wy, k.wz};
+  return {k.x, k.y, k.z, k.radius, k.vx, k.vy, k.vz, k.wx, k.wy, k.wz, k.weight};
 }
 
 /// Evaluates pair k, updates its history, and hands (force, kinematics) to `take`.
@@ -26,8 +26,8 @@ void each_pair(const dem::LinkLaw& law, const dem::Particles& particles, dem::Li
     const dem::PairKinematics<double> pair = dem::pair_kinematics(a, b, time_step);
     dem::PairHistory<double> history{links.max_strain[k], links.shear_x[k], links.shear_y[k], links.shear_z[k]};
     const dem::PairForce<double> force =
-        dem::evaluate<choices>(law, pair, links.inverse_initial_distance[k], links.area[k], a.radius + b.radius,
-                               time_step, history, sliding);
+        dem::evaluate<choices>(law, pair, links.inverse_initial_distance[k], dem::interaction_area(a, b),
+                               a.radius + b.radius, time_step, history, [&](double work) { sliding += work; });
     links.max_strain[k] = history.max_strain;
     links.shear_x[k] = history.shear_x;
     links.shear_y[k] = history.shear_y;
@@ -36,16 +36,21 @@ void each_pair(const dem::LinkLaw& law, const dem::Particles& particles, dem::Li
   }
 }
 
-/// One step of the assembly's links: positions, forces, velocities (Eq. 9). Returns what sliding dissipated
-/// [J].
-template <dem::LinkChoices choices>
-double step(const dem::LinkLaw& law, dem::Particles& particles, dem::Links& links, double time_step) {
+/// Positions and rotations to the end of the step.
+inline void move(dem::Particles& particles, double time_step) {
   for (std::size_t i = 0; i < particles.count; ++i) {
     dem::Kinematics& k = particles.kinematics[i];
     k.x += time_step * k.vx, k.y += time_step * k.vy, k.z += time_step * k.vz;
     particles.rotation[i] += time_step * k.spin();
-    particles.force[i] = {};
   }
+}
+
+/// One step of the assembly's links: positions, forces, velocities (Eq. 9). Returns what sliding dissipated
+/// [J].
+template <dem::LinkChoices choices>
+double step(const dem::LinkLaw& law, dem::Particles& particles, dem::Links& links, double time_step) {
+  move(particles, time_step);
+  for (dem::SixRow& force : particles.force) force = {};
   double sliding = 0;
   each_pair<choices>(law, particles, links, time_step, sliding,
                      [&](std::size_t, std::size_t i, std::size_t j, const dem::PairForce<double>& force,
@@ -60,8 +65,11 @@ double step(const dem::LinkLaw& law, dem::Particles& particles, dem::Links& link
                      });
   for (std::size_t i = 0; i < particles.count; ++i) {
     double* velocity = &particles.kinematics[i].vx;
+    const dem::Inertia& inertia = particles.inertia[i];
     for (int c = 0; c < 6; ++c)
-      velocity[c] += time_step * particles.inverse_mass[i].value[c] * particles.force[i].value[c];
+      if (!particles.is_prescribed(i, c))
+        velocity[c] +=
+            time_step * (c < 3 ? inertia.inverse_mass : inertia.inverse_moment) * particles.force[i].value[c];
   }
   return sliding;
 }

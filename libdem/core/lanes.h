@@ -67,6 +67,16 @@ SPALL_INLINE Lanes root(Lanes value) {
   return result;
 }
 
+/// The value with its own rounding: a product handed through here is not fused into the sum that uses it.
+template <class Real>
+SPALL_INLINE Real rounded(Real value) {
+#if defined(__GNUC__) && !defined(__clang__)
+  return __builtin_assoc_barrier(value);
+#else
+  return value;  // clang fuses within one expression only
+#endif
+}
+
 SPALL_INLINE bool any(bool mask) { return mask; }
 SPALL_INLINE bool any(Mask mask) {
   std::int64_t bits = 0;

@@ -5,6 +5,8 @@
 // C = Kn D_init / S_int, which Eq. 1 makes the same for all pairs, the yield strain T/C is the same for all
 // pairs too.
 #pragma once
+#include <cstddef>
+
 #include "libdem/core/lanes.h"
 #include "libdem/law/pair_kinematics.h"
 #include "libdem/material/material_card.h"
@@ -26,6 +28,12 @@ struct LinkLaw {
   double yield_strain() const { return tensile_strength / normal_modulus; }
   double breaking_strain() const { return yield_strain() * (1 + softening); }
   bool is_broken(double max_strain) const { return max_strain >= breaking_strain(); }
+  /// The named choices as a number: elastic_unloading + 2 proportional_cohesion + 4 contact_at_radii.
+  std::size_t choice() const {
+    return (unloading == SofteningUnloading::elastic ? 1u : 0u) +
+           (cohesion_during_softening == CohesionDuringSoftening::proportional ? 2u : 0u) +
+           (broken_link_contact == BrokenLinkContact::radii ? 4u : 0u);
+  }
 };
 
 /// The law of a card, its stiffness by Eq. 1. Throws InputError if the card is not valid.
@@ -43,6 +51,7 @@ struct LinkChoices {
 
 inline namespace SPALL_ISA {
 
+/// The largest strain so far, kept once it has passed the yield strain (before that it has no effect), and F_s.
 template <class Real>
 struct PairHistory {
   Real max_strain, shear_x, shear_y, shear_z;
@@ -53,37 +62,39 @@ struct PairHistory {
 template <class Real>
 struct PairForce {
   Real fx, fy, fz, mx, my, mz;
+  bool damaged;  ///< some link has passed its yield strain: only then does the history's largest strain change
 };
 
-/// One pair over one step. `radii` is Ra + Rb. Updates the history; adds what sliding dissipates [J] to
-/// `sliding`.
-template <LinkChoices choices, class Real>
+/// One pair over one step. `radii` is Ra + Rb. Updates the history; `slid(work)` is called with what sliding
+/// dissipated [J], if any pair slid. With the elements exchanged all vectors turn round and all bits stay.
+template <LinkChoices choices, class Real, class Slid>
 SPALL_INLINE PairForce<Real> evaluate(const LinkLaw& law, const PairKinematics<Real>& pair,
                                       Real inverse_initial_distance, Real area, Real radii, double time_step,
-                                      PairHistory<Real>& history, double& sliding) {
+                                      PairHistory<Real>& history, Slid&& slid) {
   const Real zero = broadcast<Real>(0), one = broadcast<Real>(1);
   const Real strain = pair.distance * inverse_initial_distance - one;
   const Real stiffness = broadcast<Real>(law.normal_modulus) * area;  // Kn D_init [N]
-  history.max_strain = larger(history.max_strain, strain);
+  const Real largest = larger(history.max_strain, strain);
 
   Real normal = -stiffness * strain;  // F_n
   Real cohesion = broadcast<Real>(law.cohesion) * area;
   Real slope = broadcast<Real>(law.internal_slope);
   const double yield = law.tensile_strength / law.normal_modulus;
-  if (any(history.max_strain > broadcast<Real>(yield))) [[unlikely]] {
-    const auto softened = history.max_strain > broadcast<Real>(yield);
-    const Real fall =
-        broadcast<Real>(law.normal_modulus / law.softening) * (history.max_strain - broadcast<Real>(yield));
+  PairForce<Real> force;
+  force.damaged = any(largest > broadcast<Real>(yield));
+  if (force.damaged) [[unlikely]] {
+    const auto softened = largest > broadcast<Real>(yield);
+    history.max_strain = select(softened, largest, history.max_strain);
+    const Real fall = broadcast<Real>(law.normal_modulus / law.softening) * (largest - broadcast<Real>(yield));
     const Real remaining =
         larger(zero, broadcast<Real>(law.tensile_strength) - fall);  // tensile strength left [Pa]
     const auto broken = remaining <= zero;
     const auto apart = strain > zero;
     if constexpr (choices.elastic_unloading) {
-      const Real unloaded =
-          -(remaining - broadcast<Real>(law.normal_modulus) * (history.max_strain - strain)) * area;
+      const Real unloaded = -(remaining - broadcast<Real>(law.normal_modulus) * (largest - strain)) * area;
       normal = select(softened, select(broken, select(apart, zero, normal), unloaded), normal);
     } else {
-      const Real secant = -(remaining / history.max_strain) * strain * area;
+      const Real secant = -(remaining / largest) * strain * area;
       normal = select(softened, select(apart, secant, normal), normal);
     }
     if constexpr (choices.contact_at_radii) {
@@ -120,12 +131,11 @@ SPALL_INLINE PairForce<Real> evaluate(const LinkLaw& law, const PairKinematics<R
     // close.
     const Real mean = (one + keep) * square - (ix * tx + iy * ty + iz * tz);
     const Real spent = broadcast<Real>(0.5) * (one - keep) * mean / select(slides, shear_stiffness, one);
-    sliding += sum(select(slides, spent, zero));
+    slid(select(slides, spent, zero));
     tx = tx * keep, ty = ty * keep, tz = tz * keep;
   }
   history.shear_x = tx, history.shear_y = ty, history.shear_z = tz;
 
-  PairForce<Real> force;
   force.fx = tx - normal * pair.nx;
   force.fy = ty - normal * pair.ny;
   force.fz = tz - normal * pair.nz;

@@ -8,8 +8,15 @@ inline namespace SPALL_ISA {
 /// One element of a pair, see Kinematics.
 template <class Real>
 struct PairElement {
-  Real x, y, z, radius, vx, vy, vz, wx, wy, wz;
+  Real x, y, z, radius, vx, vy, vz, wx, wy, wz, weight;
 };
+
+/// S_int = pi min(Ra, Rb)^2 [m2], times the smaller of the elements' weights.
+template <class Real>
+SPALL_INLINE Real interaction_area(const PairElement<Real>& a, const PairElement<Real>& b) {
+  const Real radius = smaller(a.radius, b.radius);
+  return broadcast<Real>(3.141592653589793) * (radius * radius) * smaller(a.weight, b.weight);
+}
 
 template <class Real>
 struct PairKinematics {
@@ -23,6 +30,9 @@ struct PairKinematics {
 
 /// Velocities belong to the mid-step, so tangential motion is measured against the mid-step normal: measured
 /// against the normal at t_n a rigid rotation would leave spurious shear.
+///
+/// Seen from b, with the elements exchanged, every vector turns round and every bit of its length stays: no sum
+/// of the two elements' terms may be fused into one rounding on one side only (`rounded`).
 template <class Real>
 SPALL_INLINE PairKinematics<Real> pair_kinematics(const PairElement<Real>& a, const PairElement<Real>& b,
                                                   double time_step) {
@@ -33,7 +43,7 @@ SPALL_INLINE PairKinematics<Real> pair_kinematics(const PairElement<Real>& a, co
   const Real inverse = broadcast<Real>(1) / k.distance;
   k.nx = dx * inverse, k.ny = dy * inverse, k.nz = dz * inverse;
   k.arm_a = broadcast<Real>(0.5) * (k.distance + (a.radius - b.radius));
-  k.arm_b = k.distance - k.arm_a;
+  k.arm_b = broadcast<Real>(0.5) * (k.distance - (a.radius - b.radius));
 
   const Real ux = b.vx - a.vx, uy = b.vy - a.vy, uz = b.vz - a.vz;
   const Real un = ux * k.nx + uy * k.ny + uz * k.nz;
@@ -42,9 +52,9 @@ SPALL_INLINE PairKinematics<Real> pair_kinematics(const PairElement<Real>& a, co
   k.my = k.ny - back * (uy - un * k.ny);
   k.mz = k.nz - back * (uz - un * k.nz);
 
-  const Real px = k.arm_a * a.wx + k.arm_b * b.wx;
-  const Real py = k.arm_a * a.wy + k.arm_b * b.wy;
-  const Real pz = k.arm_a * a.wz + k.arm_b * b.wz;
+  const Real px = rounded(k.arm_a * a.wx) + rounded(k.arm_b * b.wx);
+  const Real py = rounded(k.arm_a * a.wy) + rounded(k.arm_b * b.wy);
+  const Real pz = rounded(k.arm_a * a.wz) + rounded(k.arm_b * b.wz);
   const Real rx = ux - (py * k.mz - pz * k.my);
   const Real ry = uy - (pz * k.mx - px * k.mz);
   const Real rz = uz - (px * k.my - py * k.mx);

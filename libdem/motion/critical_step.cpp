@@ -16,7 +16,8 @@ double critical_time_step(const LinkNetwork& network, const Particles& particles
       size);  // M^(-1/2), of all degrees of freedom: a support that is released must not diverge
   for (std::size_t i = 0; i < network.elements; ++i)
     for (std::size_t c = 0; c < 6; ++c)
-      inverse_root[static_cast<Eigen::Index>(6 * i + c)] = 1 / std::sqrt(particles.mass[i].value[c]);
+      inverse_root[static_cast<Eigen::Index>(6 * i + c)] =
+          1 / std::sqrt(c < 3 ? particles.element_mass(i) : particles.element_inertia(i));
 
   Random random(20071);
   Eigen::VectorXd current(size), previous = Eigen::VectorXd::Zero(size), scaled(size), product(size);

@@ -62,8 +62,8 @@ class ContentReader {
 std::vector<std::uint8_t> held_dofs(const Particles& particles) {
   std::vector<std::uint8_t> held;
   held.reserve(6 * particles.count);
-  for (const SixRow& row : particles.inverse_mass)
-    for (int dof = 0; dof < 6; ++dof) held.push_back(row.value[dof] == 0 ? 1 : 0);
+  for (std::size_t i = 0; i < particles.count; ++i)
+    for (int dof = 0; dof < 6; ++dof) held.push_back(particles.is_prescribed(i, dof) ? 1 : 0);
   return held;
 }
 
@@ -168,6 +168,7 @@ void apply(StateRead&& read, Assembly& assembly, StepRoom& room) {
   particles.rotation = vectors_of(read.rotation);
   for (std::size_t k = 0; k < history.size(); ++k)
     assembly.links.*history[k].second = std::move(read.link_history[k]);
+  room.link_blocks.take_histories(assembly.links);
   assembly.contacts = std::move(read.contacts);
   room.detector.restore(std::move(read.memory));
   room.max_speed = read.max_speed;
@@ -183,8 +184,9 @@ void require_same(const Hdf5File& file, const Belonging& belongs_to) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, const Assembly& assembly,
+void write_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, Assembly& assembly,
                       const StepRoom& room, const NamedNumbers& numbers) {
+  settle(assembly, room);
   create_spall_file(path, format, version, [&](Hdf5File& file) {
     file.make_group("belongs_to");
     for (const auto& [what, sha256] : belongs_to) file.set_attribute("belongs_to", what, sha256);

@@ -19,11 +19,11 @@ using NamedNumbers = std::map<std::string, std::vector<double>>;
 using Belonging = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes the state after a step: an HDF5 file of format "spall-checkpoint", version 1, with the SHA-256 of its
-/// content, whole or not at all. Throws RunError if it cannot be written.
+/// content, whole or not at all. Settles the assembly. Throws RunError if it cannot be written.
 ///
 /// Kept are the columns that a run changes. What follows from the specimen and the card (geometry at rest,
 /// masses, the law, which pairs are linked) is not: the reader makes it anew.
-void write_checkpoint(const std::filesystem::path& file, const Belonging& belongs_to, const Assembly& assembly,
+void write_checkpoint(const std::filesystem::path& file, const Belonging& belongs_to, Assembly& assembly,
                       const StepRoom& room, const NamedNumbers& numbers);
 
 /// Brings `assembly` and `room`, made anew from the same inputs, to the state of the file, and returns the

@@ -25,10 +25,11 @@ inline constexpr double born_broken = 1e30;
 /// Ra + Rb for its initial distance, so that one law serves both.
 struct Links {
   std::size_t count = 0;
-  Column<std::int32_t> a, b;                 ///< element numbers
-  Column<double> inverse_initial_distance;   ///< 1/D_init [1/m]
-  Column<double> area;                       ///< S_int = pi min(Ra, Rb)^2 [m2]
-  Column<double> max_strain;                 ///< largest elongation so far over D_init [-]: the damage's memory
+  Column<std::int32_t> a, b;                ///< element numbers
+  Column<double> inverse_initial_distance;  ///< 1/D_init [1/m]
+  Column<double> area;                      ///< S_int = pi min(Ra, Rb)^2 [m2]
+  Column<double> max_strain;  ///< the damage's memory: largest elongation so far over D_init once it passed the
+                              ///< yield strain; 0 before [-]
   Column<double> shear_x, shear_y, shear_z;  ///< F_s, the force on element a [N]
 
   std::size_t padded() const { return a.size(); }

@@ -7,8 +7,8 @@ namespace dem {
 Particles::Particles(std::span<const Vec3> centres, std::span<const double> radii, double total_mass)
     : count(centres.size()),
       kinematics(count + ghost_elements),
-      mass(count),
-      inverse_mass(count),
+      inertia(count),
+      prescribed(count, 0),
       force(count),
       rotation(count, Vec3::Zero()),
       initial_position(centres.begin(), centres.end()),
@@ -20,23 +20,32 @@ Particles::Particles(std::span<const Vec3> centres, std::span<const double> radi
     const double r = radii[i];
     kinematics[i] = {centres[i].x(), centres[i].y(), centres[i].z(), r};
     const double m = density * 4.0 / 3 * std::numbers::pi * r * r * r;
-    const double inertia = 0.4 * m * r * r;  // of a solid sphere
-    for (int k = 0; k < 6; ++k) {
-      mass[i].value[k] = k < 3 ? m : inertia;
-      inverse_mass[i].value[k] = 1 / mass[i].value[k];
-    }
+    const double moment = 0.4 * m * r * r;  // of a solid sphere
+    inertia[i] = {m, moment, 1 / m, 1 / moment};
   }
-  // Ghosts lie a metre apart, far outside, so that a padding link between them has a distance and no force.
-  kinematics[count] = {-1e3, -1e3, -1e3, 1};
-  kinematics[count + 1] = {-1e3 + 1, -1e3, -1e3, 1};
+  // Ghosts lie a metre apart, far outside, without weight: a padding link has a distance and no force.
+  for (std::size_t ghost = 0; ghost < ghost_elements; ++ghost) {
+    Kinematics& k = kinematics[count + ghost];
+    k.x = -1e3 + static_cast<double>(ghost), k.y = k.z = -1e3, k.radius = 1, k.weight = 0;
+  }
 }
 
 void Particles::prescribe(std::size_t i, int dof, double value) {
-  inverse_mass[i].value[dof] = 0;
+  prescribed[i] = static_cast<std::uint8_t>(prescribed[i] | 1u << dof);
   (&kinematics[i].vx)[dof] = value;
 }
 
-void Particles::release(std::size_t i, int dof) { inverse_mass[i].value[dof] = 1 / mass[i].value[dof]; }
+void Particles::release(std::size_t i, int dof) {
+  prescribed[i] = static_cast<std::uint8_t>(prescribed[i] & ~(1u << dof));
+}
+
+void Particles::set_weight(std::size_t i, double weight) {
+  const double change = weight / kinematics[i].weight;
+  kinematics[i].weight = weight;
+  Inertia& own = inertia[i];
+  own.mass *= change, own.moment *= change;
+  own.inverse_mass = 1 / own.mass, own.inverse_moment = 1 / own.moment;
+}
 
 void Particles::set_velocity(std::size_t i, const Vec3& velocity, const Vec3& spin) {
   Kinematics& k = kinematics[i];

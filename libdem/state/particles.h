@@ -16,7 +16,8 @@ struct Kinematics {
   double x = 0, y = 0, z = 0, radius = 0;
   double vx = 0, vy = 0, vz = 0;  ///< velocity
   double wx = 0, wy = 0, wz = 0;  ///< angular velocity
-  double unused[2] = {0, 0};      ///< rows are whole vectors of four
+  double weight = 1;              ///< of its stiffness and strength, see Particles::set_weight [-]
+  double unused = 0;              ///< rows are whole vectors of four
 
   Vec3 position() const { return {x, y, z}; }
   Vec3 velocity() const { return {vx, vy, vz}; }
@@ -29,6 +30,12 @@ struct alignas(64) SixRow {
   double value[8] = {};
 };
 
+/// What the equation of motion needs of an element.
+struct alignas(32) Inertia {
+  double mass = 0, moment = 0;                  ///< m [kg], I [kg m2]
+  double inverse_mass = 0, inverse_moment = 0;  ///< 1/m, 1/I
+};
+
 /// Number of ghost elements at the end of Particles::kinematics that the padding of the link columns points to.
 inline constexpr std::size_t ghost_elements = 2;
 
@@ -36,10 +43,10 @@ inline constexpr std::size_t ghost_elements = 2;
 struct Particles {
   std::size_t count = 0;
   Column<Kinematics> kinematics;  ///< count + ghost_elements rows
-  Column<SixRow> mass;            ///< (m, m, m, I, I, I) [kg, kg m2]
-  Column<SixRow> inverse_mass;    ///< 1/mass; 0 where a degree of freedom is prescribed: it keeps its velocity
-  Column<SixRow> force;           ///< resultant of the pairs at t_n: force [N], moment [N m]
-  std::vector<Vec3> rotation;     ///< accumulated rotation, the integral of the spin [rad]
+  Column<Inertia> inertia;
+  Column<std::uint8_t> prescribed;  ///< bit per degree of freedom that keeps its velocity
+  Column<SixRow> force;             ///< resultant at t_n: force [N], moment [N m]; see StepOptions::all_forces
+  std::vector<Vec3> rotation;       ///< accumulated rotation, the integral of the spin [rad]
   std::vector<Vec3> initial_position;  ///< [m]
   std::vector<double> radius;          ///< [m]
 
@@ -48,13 +55,17 @@ struct Particles {
   Particles() = default;
 
   Vec3 displacement(std::size_t i) const { return kinematics[i].position() - initial_position[i]; }
-  double element_mass(std::size_t i) const { return mass[i].value[0]; }
-  double element_inertia(std::size_t i) const { return mass[i].value[3]; }
+  double element_mass(std::size_t i) const { return inertia[i].mass; }
+  double element_inertia(std::size_t i) const { return inertia[i].moment; }
+  bool is_prescribed(std::size_t i, int dof) const { return (prescribed[i] >> dof & 1) != 0; }
 
   /// Makes degree of freedom `dof` (0..2 displacements, 3..5 rotations) of element i keep the velocity `value`.
   void prescribe(std::size_t i, int dof, double value);
   /// Hands degree of freedom `dof` back to the equation of motion.
   void release(std::size_t i, int dof);
+  /// Gives element i the part `weight` (above 0, at most 1) of its mass and inertia, and its pairs the smaller
+  /// of their two elements' weights of their stiffness and strength: the energy weight of a bridging domain.
+  void set_weight(std::size_t i, double weight);
   void set_velocity(std::size_t i, const Vec3& velocity, const Vec3& spin = Vec3::Zero());
 };
 

@@ -69,7 +69,7 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
     const dem::StepSums sums = dem::advance(assembly, room, plan.step);
     book_step(record, plan, sums, assembly.particles);
     if (window_is_full(record, plan)) {
-      close_window(record, plan, assembly);
+      close_window(record, plan, assembly, room);
       over = is_over(record, plan);
       if (progress) progress(where_it_stands(record, plan, over));
     }

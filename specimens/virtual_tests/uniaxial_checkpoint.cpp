@@ -99,8 +99,7 @@ void CheckpointKeeper::restore(dem::Assembly& assembly, dem::StepRoom& room, Uni
   set_from(record, dem::read_checkpoint(policy.file, belonging, assembly, room), policy.file);
 }
 
-void CheckpointKeeper::look(const dem::Assembly& assembly, const dem::StepRoom& room,
-                            const UniaxialRecord& record) {
+void CheckpointKeeper::look(dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record) {
   const bool stop = dem::interrupt_requested() || record.steps == policy.stop_after;
   if (!policy.file.empty() && (stop || since_written.seconds() >= policy.seconds_between)) {
     write(assembly, room, record);
@@ -111,7 +110,7 @@ void CheckpointKeeper::look(const dem::Assembly& assembly, const dem::StepRoom& 
                                              : fmt::format("stopped by a signal at step {}", record.steps));
 }
 
-void CheckpointKeeper::write(const dem::Assembly& assembly, const dem::StepRoom& room,
+void CheckpointKeeper::write(dem::Assembly& assembly, const dem::StepRoom& room,
                              const UniaxialRecord& record) const {
   dem::write_checkpoint(policy.file, belonging, assembly, room, numbers_of(record, room.detector.rebuilds()));
 }

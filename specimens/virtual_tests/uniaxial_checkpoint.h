@@ -15,10 +15,10 @@ class CheckpointKeeper {
   void restore(dem::Assembly& assembly, dem::StepRoom& room, UniaxialRecord& record) const;
 
   /// Writes a checkpoint when it is due. Throws Interrupted, after writing one, if a signal asked for a stop.
-  void look(const dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record);
+  void look(dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record);
 
  private:
-  void write(const dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record) const;
+  void write(dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record) const;
 
   CheckpointPolicy policy;
   dem::Belonging belonging;

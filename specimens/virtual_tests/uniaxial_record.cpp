@@ -70,7 +70,8 @@ bool window_is_full(const UniaxialRecord& record, const UniaxialPlan& plan) {
   return record.window_steps == plan.window_steps();
 }
 
-void close_window(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Assembly& assembly) {
+void close_window(UniaxialRecord& record, const UniaxialPlan& plan, dem::Assembly& assembly,
+                  const dem::StepRoom& room) {
   CurvePoint& point = record.point;
   const double n = static_cast<double>(plan.window_steps()) * plan.section;
   point.stress = 0.5 * (record.low + record.high) / n;
@@ -84,6 +85,7 @@ void close_window(UniaxialRecord& record, const UniaxialPlan& plan, const dem::A
                     name_of(plan.loading), record.steps));
   const std::size_t windows = record.curve.size();
   if (windows % 4 == 0) {  // these pass over all links
+    settle(assembly, room);
     read_pair_energies(record.ledger, assembly);
     record.worst_imbalance = std::max(record.worst_imbalance, std::abs(record.ledger.imbalance()));
     point.broken = static_cast<double>(dem::broken_links(assembly.law, assembly.links)) /
@@ -103,10 +105,11 @@ bool is_over(const UniaxialRecord& record, const UniaxialPlan& plan) {
   return has_fallen(record, plan) || record.curve.back().strain >= plan.max_strain;
 }
 
-UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, const dem::Assembly& assembly,
+UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, dem::Assembly& assembly,
                         const dem::StepRoom& room) {
   UniaxialResult result;
   result.step_loop_seconds = record.loop.seconds();
+  settle(assembly, room);
   read_pair_energies(record.ledger, assembly);
   result.energy = record.ledger;
   result.energy_balance_error = record.worst_imbalance / std::max(std::abs(record.ledger.external), 1e-300);

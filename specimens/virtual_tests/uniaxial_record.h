@@ -44,7 +44,8 @@ void book_step(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Step
 bool window_is_full(const UniaxialRecord& record, const UniaxialPlan& plan);
 
 /// Makes the window a point of the curve and begins the next one. Throws RunError if the test has diverged.
-void close_window(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Assembly& assembly);
+void close_window(UniaxialRecord& record, const UniaxialPlan& plan, dem::Assembly& assembly,
+                  const dem::StepRoom& room);
 
 /// Whether the stress has fallen far enough below its peak.
 bool has_fallen(const UniaxialRecord& record, const UniaxialPlan& plan);
@@ -53,7 +54,7 @@ bool has_fallen(const UniaxialRecord& record, const UniaxialPlan& plan);
 bool is_over(const UniaxialRecord& record, const UniaxialPlan& plan);
 
 /// The result, once the test is over.
-UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, const dem::Assembly& assembly,
+UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, dem::Assembly& assembly,
                         const dem::StepRoom& room);
 
 }  // namespace virtual_tests

@@ -50,7 +50,8 @@ TEST(CriticalStep, OfAClusterIsThatOfItsDenseEigenproblem) {
   Eigen::MatrixXd dynamic(size, size);
   Eigen::VectorXd unit(size), column(size);
   const auto mass = [&](Eigen::Index k) {
-    return made.particles.mass[static_cast<std::size_t>(k / 6)].value[k % 6];
+    return k % 6 < 3 ? made.particles.element_mass(static_cast<std::size_t>(k / 6))
+                     : made.particles.element_inertia(static_cast<std::size_t>(k / 6));
   };
   for (Eigen::Index k = 0; k < size; ++k) {
     unit.setZero();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "libdem/core/instructions.h"
-#include "libdem/force/pair_loop.h"
+#include "libdem/force/contact_loop.h"
 #include "libdem/probe/damage.h"
 #include "tests/reference_loop.h"
 #include "tests/verification/scene.h"
@@ -303,7 +303,7 @@ struct Deviation {
 
 /// What the lanes of one instruction set give for a random history, against the law on plain doubles.
 template <dem::LinkChoices choices>
-void compare(const dem::PairLoops& loops, const std::string& what) {
+void compare(const dem::ContactLoops& loops, const std::string& what) {
   constexpr std::size_t number = (choices.elastic_unloading ? 1u : 0u) +
                                  (choices.proportional_cohesion ? 2u : 0u) +
                                  (choices.contact_at_radii ? 4u : 0u);
@@ -315,7 +315,7 @@ void compare(const dem::PairLoops& loops, const std::string& what) {
   dem::Particles& particles = assembly.particles;
   dem::Links& links = assembly.links;
   dem::Links plain = links;
-  std::vector<dem::PairRow> rows(links.padded());
+  std::vector<dem::ContactRow> rows(links.padded());
   std::array<Deviation, 8> row;
   Deviation strain, shear, sliding;
   dem::Random random(12);
@@ -332,25 +332,24 @@ void compare(const dem::PairLoops& loops, const std::string& what) {
       const Vec3 spin = any() * 100;
       particles.set_velocity(i, velocity, spin);
     }
-    dem::advance_positions(particles, dt, 1);
     double now = 0;
-    dem::PairLoopArguments arguments{&law,
-                                     dt,
-                                     particles.kinematics.data(),
-                                     links.a.data(),
-                                     links.b.data(),
-                                     links.inverse_initial_distance.data(),
-                                     links.area.data(),
-                                     links.max_strain.data(),
-                                     links.shear_x.data(),
-                                     links.shear_y.data(),
-                                     links.shear_z.data(),
-                                     rows.data(),
-                                     0,
-                                     links.padded(),
-                                     0};
+    dem::ContactLoopArguments arguments{&law,
+                                        dt,
+                                        particles.kinematics.data(),
+                                        links.a.data(),
+                                        links.b.data(),
+                                        links.inverse_initial_distance.data(),
+                                        links.max_strain.data(),
+                                        links.shear_x.data(),
+                                        links.shear_y.data(),
+                                        links.shear_z.data(),
+                                        rows.data(),
+                                        0,
+                                        links.padded(),
+                                        0};
     loops.loop[number](arguments);
     slid += arguments.sliding;
+    reference::move(particles, dt);
     reference::each_pair<choices>(
         law, particles, plain, dt, now,
         [&](std::size_t k, std::size_t, std::size_t, const dem::PairForce<double>& force,
@@ -382,7 +381,7 @@ void compare(const dem::PairLoops& loops, const std::string& what) {
   EXPECT_LT(sliding.relative(), 1e-12) << what;
 }
 
-void compare_all(const dem::PairLoops& loops, const std::string& set) {
+void compare_all(const dem::ContactLoops& loops, const std::string& set) {
   compare<dem::LinkChoices{false, false, false}>(loops, set + " secant constant D_init");
   compare<dem::LinkChoices{true, false, false}>(loops, set + " elastic constant D_init");
   compare<dem::LinkChoices{false, true, false}>(loops, set + " secant proportional D_init");
@@ -396,22 +395,23 @@ void compare_all(const dem::PairLoops& loops, const std::string& set) {
 }  // namespace
 
 TEST(Lanes, AgreeWithPlainDoublesInAllEightChoicesBaseline) {
-  compare_all(dem::baseline_pair_loops(), "baseline");
+  compare_all(dem::baseline_contact_loops(), "baseline");
 }
 
 #ifdef SPALL_X86
 TEST(Lanes, AgreeWithPlainDoublesInAllEightChoicesAvx2) {
   if (dem::instructions() < dem::Instructions::avx2) GTEST_SKIP() << "this machine has no AVX2";
-  compare_all(dem::avx2_pair_loops(), "avx2");
+  compare_all(dem::avx2_contact_loops(), "avx2");
 }
 
 TEST(Lanes, AgreeWithPlainDoublesInAllEightChoicesAvx512) {
   if (dem::instructions() < dem::Instructions::avx512) GTEST_SKIP() << "this machine has no AVX-512";
-  compare_all(dem::avx512_pair_loops(), "avx512");
+  compare_all(dem::avx512_contact_loops(), "avx512");
 }
 #endif
 
-TEST(Lanes, StepsAgreeWithTheReferenceLoop) {
+/// Whole steps of small assemblies of one block; determinism_test and specimens have assemblies of several.
+void compare_steps(const dem::BlockLoops& loops) {
   dem::LinkLaw law = plain_law();
   law.tensile_strength = law.cohesion = 0.002 * law.normal_modulus;
   const dem::Assembly start = [&] {
@@ -421,6 +421,7 @@ TEST(Lanes, StepsAgreeWithTheReferenceLoop) {
   }();
   const double dt = 0.3 * scene::critical_step_of(start);
   scene::Scene lanes(start, dt);
+  lanes.room.loops = loops;
   dem::Assembly plain = start;
   double sliding = 0;
   for (int n = 0; n < 60;
@@ -434,3 +435,17 @@ TEST(Lanes, StepsAgreeWithTheReferenceLoop) {
   for (std::size_t i = 0; i < plain.particles.count; ++i)
     EXPECT_LT((lanes.position(i) - plain.particles.kinematics[i].position()).norm(), 1e-12);
 }
+
+TEST(Lanes, StepsAgreeWithTheReferenceLoopBaseline) { compare_steps(dem::baseline_block_loops()); }
+
+#ifdef SPALL_X86
+TEST(Lanes, StepsAgreeWithTheReferenceLoopAvx2) {
+  if (dem::instructions() < dem::Instructions::avx2) GTEST_SKIP() << "this machine has no AVX2";
+  compare_steps(dem::avx2_block_loops());
+}
+
+TEST(Lanes, StepsAgreeWithTheReferenceLoopAvx512) {
+  if (dem::instructions() < dem::Instructions::avx512) GTEST_SKIP() << "this machine has no AVX-512";
+  compare_steps(dem::avx512_block_loops());
+}
+#endif

@@ -49,11 +49,13 @@ struct Scene {
 
   Scene(dem::Assembly made, double time_step) : assembly(std::move(made)), room(assembly) {
     options.time_step = time_step;
+    options.all_forces = true;
   }
 
   dem::Particles& particles() { return assembly.particles; }
   void step() {
     const dem::StepSums sums = dem::advance(assembly, room, options);
+    dem::settle(assembly, room);
     sliding += sums.sliding, damped += sums.damped, kinetic = sums.kinetic;
   }
   void steps(int count) {
