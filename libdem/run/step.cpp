@@ -50,7 +50,7 @@ StepSums advance(Assembly& assembly, StepRoom& room, const StepOptions& options,
   LinkBlocks& links = room.link_blocks;
   StepSums sums;
 
-  if (room.detector.update(particles, assembly.contacts, room.max_speed, options.time_step))
+  if (room.detector.update(particles, assembly.contacts, room.max_speed, options.time_step, options.threads))
     room.contact_incidence = Incidence(assembly.contacts, particles.count);
   const bool contacts = assembly.contacts.count > 0;
   if (contacts)
