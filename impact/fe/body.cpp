@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "libdem/core/error.h"
 
@@ -71,16 +72,24 @@ Body::Body(const Mesh& mesh, const Material& elastic, const BodyOptions& options
           corner_mass[static_cast<std::size_t>(known->second)][static_cast<Eigen::Index>(a)];
   }
 
-  incidence_first.assign(nodes() + 1, 0);
-  for (const Hexahedron& element : connectivity)
-    for (const std::int32_t node : element) ++incidence_first[static_cast<std::size_t>(node) + 1];
-  for (std::size_t i = 0; i < nodes(); ++i) incidence_first[i + 1] += incidence_first[i];
-  incidence_entry.resize(8 * elements());
-  std::vector<std::int32_t> next(incidence_first.begin(), incidence_first.end() - 1);
-  for (std::size_t e = 0; e < elements(); ++e)
+  std::vector<std::int32_t> every(elements());
+  std::iota(every.begin(), every.end(), 0);
+  all = Portion(connectivity, std::move(every));
+}
+
+Portion::Portion(std::span<const Hexahedron> connectivity, std::vector<std::int32_t> chosen)
+    : elements(std::move(chosen)) {
+  std::map<std::int32_t, std::vector<std::int32_t>> touched;
+  for (std::size_t place = 0; place < elements.size(); ++place)
     for (std::size_t a = 0; a < 8; ++a)
-      incidence_entry[static_cast<std::size_t>(next[static_cast<std::size_t>(connectivity[e][a])]++)] =
-          static_cast<std::int32_t>(8 * e + a);
+      touched[connectivity[static_cast<std::size_t>(elements[place])][a]].push_back(
+          static_cast<std::int32_t>(8 * place + a));
+  first.push_back(0);
+  for (const auto& [node, entries] : touched) {
+    nodes.push_back(node);
+    entry.insert(entry.end(), entries.begin(), entries.end());
+    first.push_back(static_cast<std::int32_t>(entry.size()));
+  }
 }
 
 double Body::total_mass() const {

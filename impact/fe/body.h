@@ -1,6 +1,7 @@
 // An elastic body: a mesh and a material turned into what a step needs.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "impact/fe/hexahedron.h"
@@ -18,8 +19,19 @@ struct BodyOptions {
   std::vector<std::int32_t> representative;
 };
 
-/// Stiffness, mass and the order in which forces are summed. It does not change during a run. Elements of one
-/// shape and weight share one stiffness.
+/// Some of a body's elements, and the order in which their forces are summed at each node that they touch:
+/// along `entry`, the same order on any number of threads.
+struct Portion {
+  std::vector<std::int32_t> elements;  ///< ascending
+  std::vector<std::int32_t> nodes;     ///< ascending
+  std::vector<std::int32_t> first;     ///< nodes + 1 offsets into `entry`
+  std::vector<std::int32_t> entry;     ///< place in `elements` * 8 + corner, ascending
+
+  Portion() = default;
+  Portion(std::span<const Hexahedron> connectivity, std::vector<std::int32_t> chosen);
+};
+
+/// Stiffness and mass. It does not change during a run. Elements of one shape and weight share one stiffness.
 struct Body {
   Material material;
   std::vector<Hexahedron> connectivity;     ///< representative nodes, by element
@@ -27,10 +39,7 @@ struct Body {
   std::vector<ShapeValues> corner_mass;     ///< by class [kg]
   std::vector<std::int32_t> element_class;  ///< by element
   std::vector<double> node_mass;            ///< lumped, weighted [kg]; 0 for a node that another moves for
-  /// For every node the elements that touch it: element * 8 + corner, ascending. Forces are summed along this
-  /// list: the same order on any number of threads.
-  std::vector<std::int32_t> incidence_first;  ///< nodes + 1 offsets into incidence_entry
-  std::vector<std::int32_t> incidence_entry;
+  Portion all;                              ///< every element
 
   /// Throws InputError if the mesh or the material is refused, or a weight is not above 0.
   Body(const Mesh& mesh, const Material& material, const BodyOptions& options = {});

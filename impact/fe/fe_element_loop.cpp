@@ -15,7 +15,8 @@ SPALL_INLINE Eight load_eight(const double* from) {
 }
 
 void element_loop(const ElementLoopArguments& arguments, std::size_t begin, std::size_t end) {
-  for (std::size_t e = begin; e < end; ++e) {
+  for (std::size_t place = begin; place < end; ++place) {
+    const auto e = static_cast<std::size_t>(arguments.elements[place]);
     const double* column = arguments.stiffness + 576 * static_cast<std::size_t>(arguments.element_class[e]);
     // Two sums, of the even and the odd columns, so that additions need not wait for each other.
     Eight even[3] = {}, odd[3] = {};
@@ -30,7 +31,7 @@ void element_loop(const ElementLoopArguments& arguments, std::size_t begin, std:
         even[part] += load_eight(column + 8 * part) * u[j];
         odd[part] += load_eight(column + 24 + 8 * part) * u[j + 1];
       }
-    double* row = arguments.rows + 24 * e;
+    double* row = arguments.rows + 24 * place;
     for (int part = 0; part < 3; ++part) {
       const Eight total = even[part] + odd[part];
       __builtin_memcpy(row + 8 * part, &total, sizeof total);

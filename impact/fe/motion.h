@@ -18,8 +18,11 @@ void advance_positions(State& state, double time_step, int threads = 1);
 /// on any number of threads.
 void internal_force(const Body& body, State& state, ElementRows& room, int threads = 1);
 
-/// velocity += duration * force / mass. `duration` is the time step, or m time steps when the force is applied
-/// every m-th step as an impulse.
+/// force -= factor * K displacement of some elements only, on the nodes that they touch.
+void add_internal_force(const Body& body, const Portion& portion, double factor, State& state,
+                        ElementRows& room, int threads = 1);
+
+/// velocity += duration * force / mass; `duration` is the time step.
 void advance_velocities(State& state, double duration, int threads = 1);
 
 }  // namespace fe

@@ -1,0 +1,94 @@
+#include "impact/coupling/kinematic_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "impact/fe/locator.h"
+#include "libdem/core/error.h"
+
+namespace coupling {
+namespace {
+
+struct TiedElement {
+  std::int32_t element = 0;
+  fe::PointInMesh place;
+};
+
+std::vector<TiedElement> find_tied(const Zone& zone, const fe::Mesh& mesh, std::span<const Vec3> centres) {
+  const fe::Locator locator(mesh);
+  std::vector<TiedElement> tied;
+  std::size_t outside = 0, first_outside = 0;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (zone.overlap_coordinate(centres[i]) <= 0) continue;
+    if (const auto place = locator.find(centres[i], 1e-6)) {
+      tied.push_back({static_cast<std::int32_t>(i), *place});
+    } else if (outside++ == 0) {
+      first_outside = i;
+    }
+  }
+  if (outside > 0) {
+    const Vec3& x = centres[first_outside];
+    throw dem::InputError(
+        mesh.origin,
+        fmt::format("{} discrete elements of the overlap lie in no finite element, the first at ({:.4g}, "
+                    "{:.4g}, {:.4g}) m",
+                    outside, x.x(), x.y(), x.z()),
+        "the mesh must surround the zone of discrete elements and reach into it by the whole overlap");
+  }
+  if (tied.empty())
+    throw dem::InputError(mesh.origin, "no discrete element lies in the overlap",
+                          "the zone must be filled with discrete elements and the overlap be thicker than one");
+  return tied;
+}
+
+}  // namespace
+
+KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe::Body& body,
+                                std::span<const Vec3> centres, Ties ties) {
+  zone.validate();
+  const std::vector<TiedElement> tied = find_tied(zone, mesh, centres);
+  KinematicMap map;
+  map.ties = ties;
+  std::vector<std::int32_t> place(body.nodes(), -1);  // of a node among map.nodes
+  for (const TiedElement& one : tied) {
+    map.elements.push_back(one.element);
+    for (const std::int32_t node : body.connectivity[static_cast<std::size_t>(one.place.element)])
+      place[static_cast<std::size_t>(node)] = 0;
+  }
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] == 0) {
+      place[i] = static_cast<std::int32_t>(map.nodes.size());
+      map.nodes.push_back(static_cast<std::int32_t>(i));
+    }
+
+  std::vector<Eigen::Triplet<double, std::int32_t>> shape, curl;
+  for (std::size_t i = 0; i < tied.size(); ++i) {
+    const auto row = static_cast<std::int32_t>(i);
+    const auto element = static_cast<std::size_t>(tied[i].place.element);
+    const fe::ShapeValues n = fe::shape_values(tied[i].place.local);
+    const fe::ShapeGradients d = fe::gradients(mesh.corners(element), tied[i].place.local);
+    for (int a = 0; a < 8; ++a) {
+      const std::int32_t column =
+          place[static_cast<std::size_t>(body.connectivity[element][static_cast<std::size_t>(a)])];
+      shape.emplace_back(row, column, n[a]);
+      if (ties == Ties::displacements) continue;
+      for (int axis = 0; axis < 3; ++axis) {  // omega_i = (du_k/dx_j - du_j/dx_k)/2 with (i, j, k) cyclic
+        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+        curl.emplace_back(3 * row + axis, 3 * column + k, 0.5 * d(a, j));
+        curl.emplace_back(3 * row + axis, 3 * column + j, -0.5 * d(a, k));
+      }
+    }
+  }
+  const auto rows = static_cast<Eigen::Index>(map.elements.size()),
+             columns = static_cast<Eigen::Index>(map.nodes.size());
+  map.k.resize(rows, columns);
+  map.k.setFromTriplets(shape.begin(), shape.end());
+  if (ties == Ties::displacements_and_rotations) {
+    map.h.resize(3 * rows, 3 * columns);
+    map.h.setFromTriplets(curl.begin(), curl.end());
+  }
+  return map;
+}
+
+}  // namespace coupling

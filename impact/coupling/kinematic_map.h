@@ -1,0 +1,34 @@
+// What the finite elements say about the motion of each overlapped discrete element (Eqs. 6 and 7).
+#pragma once
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "impact/coupling/zone.h"
+
+namespace coupling {
+
+/// Which motions of the overlapped discrete elements follow the finite elements.
+enum class Ties {
+  displacements,               ///< Eq. 6
+  displacements_and_rotations  ///< Eq. 7; costs more than twice as much and changes little
+};
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+
+/// d = k u, and omega = h u where rotations are tied. Built once, on the initial positions.
+struct KinematicMap {
+  Ties ties = Ties::displacements;
+  std::vector<std::int32_t> elements;  ///< tied discrete elements, ascending
+  std::vector<std::int32_t> nodes;     ///< finite-element nodes that they follow, ascending
+  RowMatrix k;  ///< elements x nodes: shape functions at the centres; every row sums to 1 [-]
+  RowMatrix h;  ///< 3 elements x 3 nodes: half the curl there [1/m]; empty unless rotations are tied
+};
+
+/// Ties every element whose centre has an overlap coordinate above 0. Throws InputError if one of them lies in
+/// no finite element, if nothing is tied, or if the mesh does not reach the overlap's inner border.
+KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe::Body& body,
+                                std::span<const Vec3> centres, Ties ties = Ties::displacements);
+
+}  // namespace coupling
