@@ -16,15 +16,6 @@
 
 namespace impact {
 
-/// One row of the histories.
-struct Sample {
-  double time = 0;                 ///< [s]
-  std::vector<Vec3> displacement;  ///< of each probe, in the scene's order [m]
-  Vec3 force = Vec3::Zero();       ///< of the structure on the impactor, mean since the last sample [N]
-  Vec3 impactor_position = Vec3::Zero(), impactor_velocity = Vec3::Zero();
-  std::size_t broken_links = 0;
-};
-
 /// Where energy is, all in joules. In balance: initial = kinetic + ... + damping, up to the scheme's error.
 struct ImpactEnergy {
   double initial = 0;                               ///< kinetic energy at the start, of everything that moves
@@ -41,6 +32,16 @@ struct ImpactEnergy {
            contact_sliding + contact_damping + ties;
   }
   double imbalance() const { return initial - final_sum(); }
+};
+
+/// One row of the histories.
+struct Sample {
+  double time = 0;                 ///< [s]
+  std::vector<Vec3> displacement;  ///< of each probe, in the scene's order [m]
+  Vec3 force = Vec3::Zero();       ///< of the structure on the impactor, mean since the last sample [N]
+  Vec3 impactor_position = Vec3::Zero(), impactor_velocity = Vec3::Zero();
+  std::size_t broken_links = 0;
+  ImpactEnergy energy;  ///< at that time; all zero if it was not taken then
 };
 
 /// The state as it is now, for pictures; valid during the call.

@@ -82,6 +82,9 @@ struct Scene {
   double damping = 0;               ///< local (Cundall) damping of the discrete elements
   int frames = 20;                  ///< pictures for ParaView, evenly over the duration; 0: none
   double sample_interval = 0;       ///< of histories [s]; 0: a two-thousandth of the duration
+  /// f_c of the concrete [Pa], for the penetration formulas beside the result alone; 0: not known. The model
+  /// takes its strength from the card.
+  double compressive_strength = 0;
   std::uint64_t seed = 1;
   std::vector<std::filesystem::path> inputs;  ///< every file that was read, the case itself first
 };
