@@ -1,5 +1,5 @@
 // The figures of docs/validation.md that take many specimens: `./dev validate`, or one part of it,
-// spall_validation elastic|strength|packing|speed.
+// spall_validation elastic|strength|packing.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -12,14 +12,9 @@
 #include <vector>
 
 #include "calibrate/elastic_stage.h"
-#include "libdem/drive/platens.h"
-#include "libdem/law/cohesive_link.h"
-#include "libdem/run/step.h"
 #include "specimens/packing.h"
 #include "specimens/virtual_tests/elastic.h"
-#include "specimens/virtual_tests/setup.h"
 #include "specimens/virtual_tests/uniaxial.h"
-#include "tests/reference_loop.h"
 
 namespace {
 
@@ -34,10 +29,6 @@ double mean(const std::vector<double>& v) {
 double spread(const std::vector<double>& v) {
   const auto [low, high] = std::minmax_element(v.begin(), v.end());
   return (*high - *low) / mean(v);
-}
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 specimens::PackingOptions sample(std::uint64_t seed) {
@@ -139,45 +130,6 @@ void packing() {
   }
 }
 
-/// Link updates per second of the full step (law, ledger, detection), one thread, in turns with the plain
-/// scalar loop.
-void speed() {
-  fmt::print(
-      "== step loop, one thread, full law with ledger and contact detection: million link updates a second "
-      "(medians of 7 turns)\n");
-  for (const auto& [elements, size] : {std::pair(std::size_t{2700}, dem::Vec3(0.5, 0.25, 0.25)),
-                                       std::pair(std::size_t{18672}, dem::Vec3(0.6, 0.6, 0.6)),
-                                       std::pair(std::size_t{120808}, dem::Vec3(2.5, 2.0, 0.28))}) {
-    specimens::PackingOptions packing;
-    packing.size = size, packing.elements = elements;
-    const auto specimen = specimens::make_specimen(packing);
-    dem::Assembly fast = virtual_tests::make_assembly(specimen, dem::MaterialCard{});
-    const int axis = specimen.long_axis();
-    const dem::Platens platens =
-        dem::find_platens(fast.particles, axis, specimen.size[axis], specimen.element_size());
-    dem::drive(fast.particles, platens, dem::EndCondition::free, 0.02);
-    dem::Assembly plain = fast;
-    dem::StepRoom room(fast);
-    const dem::StepOptions step{2e-6, {0.3, 2e-5, 2e-3}, 1};
-    const long count = std::max(10L, 30'000'000L / static_cast<long>(specimen.links.size()));
-    std::vector<double> quick, slow, ratio;
-    for (int turn = 0; turn < 7; ++turn) {
-      auto start = Clock::now();
-      for (long s = 0; s < count; ++s) dem::advance(fast, room, step);
-      quick.push_back(static_cast<double>(count) * static_cast<double>(specimen.links.size()) /
-                      seconds_since(start) / 1e6);
-      start = Clock::now();
-      for (long s = 0; s < count / 4; ++s)
-        reference::step<dem::LinkChoices{}>(plain.law, plain.particles, plain.links, step.time_step);
-      slow.push_back(static_cast<double>(count / 4) * static_cast<double>(specimen.links.size()) /
-                     seconds_since(start) / 1e6);
-      ratio.push_back(quick.back() / slow.back());
-    }
-    fmt::print("{:>7} elements: {:.0f}, plain scalar loop {:.0f}, ratio {:.1f}\n", elements, median(quick),
-               median(slow), median(ratio));
-  }
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -188,6 +140,5 @@ int main(int count, char** arguments) {
   run("elastic", elastic);
   run("strength", strength);
   run("packing", packing);
-  run("speed", speed);
   return 0;
 }
