@@ -40,7 +40,7 @@ struct Sample {
   std::vector<Vec3> displacement;  ///< of each probe, in the scene's order [m]
   Vec3 force = Vec3::Zero();       ///< of the structure on the impactor, mean since the last sample [N]
   Vec3 impactor_position = Vec3::Zero(), impactor_velocity = Vec3::Zero();
-  std::size_t broken_links = 0;
+  std::size_t broken_links = 0;  ///< when they were last counted
   ImpactEnergy energy;  ///< at that time; all zero if it was not taken then
 };
 
@@ -64,7 +64,7 @@ struct ImpactResult {
   double peak_force = 0;                           ///< largest mean over a sample interval [N]
   Vec3 impulse = Vec3::Zero();                     ///< on the impactor [N s]
   double residual_velocity = 0;  ///< of the impactor along its approach; negative: it came back [m/s]
-  std::size_t broken_links = 0;
+  std::size_t broken_links = 0;  ///< when they were last counted
   double damage_volume = 0;  ///< of elements that lost more than half their links, over the solid fraction [m3]
   Fragments fragments;
   SlabLoss losses;

@@ -31,7 +31,7 @@ void ForceRecord::add(double time, double time_step, const Vec3& force) {
   recent.push_back({time_step, time_step * force});
   covered += time_step;
   // Half a step of slack, or rounding would decide how many steps a window has.
-  while (covered - recent.front().time_step > window - 0.5 * time_step) {
+  while (recent.size() > 1 && covered - recent.front().time_step > window - 0.5 * time_step) {
     covered -= recent.front().time_step;
     recent.pop_front();
   }
