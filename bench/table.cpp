@@ -17,7 +17,7 @@ std::string digits(double value) {
 }
 
 std::string with_unit(const std::string& number, const std::string& unit) {
-  return unit.empty() ? number : number + (unit == "%" ? "" : " ") + unit;
+  return unit.empty() ? number : fmt::format("{}{}{}", number, unit == "%" ? "" : " ", unit);
 }
 
 std::string measured(const Row& row) {
@@ -46,8 +46,9 @@ std::string to_markdown(const std::vector<Row>& rows, const Machine& machine) {
     const auto ratio = row.ratio_to_floor();
     text +=
         fmt::format("| {}{} | {} {} | {} | {} | {} | {} |\n", row.what,
-                    row.remark.empty() ? "" : " (" + row.remark + ")", row.at_most ? "at most" : "at least",
-                    with_unit(fmt::format("{:g}", row.goal), row.unit), measured(row), row.met() ? "yes" : "no",
+                    row.remark.empty() ? std::string() : fmt::format(" ({})", row.remark),
+                    row.at_most ? "at most" : "at least", with_unit(fmt::format("{:g}", row.goal), row.unit),
+                    measured(row), row.met() ? "yes" : "no",
                     row.floor ? with_unit(digits(*row.floor), row.unit) : "", ratio ? digits(*ratio) : "");
   }
   return text;
