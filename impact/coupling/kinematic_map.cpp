@@ -39,6 +39,9 @@ std::vector<TiedElement> find_tied(const Zone& zone, const fe::Mesh& mesh, std::
   if (tied.empty())
     throw dem::InputError(mesh.origin, "no discrete element lies in the overlap",
                           "the zone must be filled with discrete elements and the overlap be thicker than one");
+  std::stable_sort(tied.begin(), tied.end(), [](const TiedElement& left, const TiedElement& right) {
+    return left.place.element < right.place.element;
+  });
   return tied;
 }
 
@@ -67,11 +70,17 @@ KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe
     const auto row = static_cast<std::int32_t>(i);
     const auto element = static_cast<std::size_t>(tied[i].place.element);
     const fe::ShapeValues n = fe::shape_values(tied[i].place.local);
+    if (i == 0 || tied[i - 1].place.element != tied[i].place.element) {
+      map.cell_first.push_back(row);
+      for (const std::int32_t node : body.connectivity[element])
+        map.cell_nodes.push_back(place[static_cast<std::size_t>(node)]);
+    }
     const fe::ShapeGradients d = fe::gradients(mesh.corners(element), tied[i].place.local);
     for (int a = 0; a < 8; ++a) {
       const std::int32_t column =
           place[static_cast<std::size_t>(body.connectivity[element][static_cast<std::size_t>(a)])];
       shape.emplace_back(row, column, n[a]);
+      map.shape.push_back(n[a]);
       if (ties == Ties::displacements) continue;
       for (int axis = 0; axis < 3; ++axis) {  // omega_i = (du_k/dx_j - du_j/dx_k)/2 with (i, j, k) cyclic
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
@@ -80,6 +89,7 @@ KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe
       }
     }
   }
+  map.cell_first.push_back(static_cast<std::int32_t>(tied.size()));
   const auto rows = static_cast<Eigen::Index>(map.elements.size()),
              columns = static_cast<Eigen::Index>(map.nodes.size());
   map.k.resize(rows, columns);

@@ -15,6 +15,7 @@
 
 #include "impact/coupling/kinematic_map.h"
 #include "impact/coupling/node_factor.h"
+#include "impact/coupling/row_loops.h"
 #include "impact/fe/state.h"
 #include "libdem/core/aligned.h"
 
@@ -34,7 +35,7 @@ struct TieOptions {
 };
 
 /// Six velocities a discrete element, x, y, z and spin about x, y, z [m/s, rad/s], at `first + stride *
-/// element`. It fits dem::Particles as {&kinematics.front().vx, sizeof(dem::Kinematics) / sizeof(double)}.
+/// element`; see discrete_side.h.
 struct DiscreteVelocities {
   double* first = nullptr;
   std::size_t stride = 6;
@@ -71,23 +72,23 @@ class Multipliers {
   const KinematicMap& map() const { return ties; }
 
  private:
-  void read_velocities(DiscreteVelocities discrete, const fe::State& nodes);
-  void solve_displacements();
-  void solve_with_rotations();
+  void factor_axes(std::span<const double> plain_mass);
+  void factor_whole(std::span<const double> plain_mass);
   void lump();
+  void sum_at_nodes();
+  void solve_nodes();
+  void solve_nodes_with_spins(DiscreteVelocities discrete);
 
   KinematicMap ties;
   TieOptions options;
-  RowMatrix k_transposed;
   // Rows of four: three axes and one unused, so that a row is one vector.
-  dem::Column<Row> element_mass, node_mass;  ///< 0 where not tied or locked
-  dem::Column<Row> element_inertia;
-  dem::Column<Row> element_velocity, element_spin, node_velocity;
-  dem::Column<Row> violation, impulse;           ///< by element: r; M_d r
-  dem::Column<Row> element_change, node_change;  ///< -(r - K q); q
-  dem::Column<Row> spin_change;
-  dem::Column<Row> lumped;  ///< row sums of C M^-1 C^T [1/kg]
+  dem::Column<Row> element_mass, element_inertia, node_mass;  ///< 0 where not tied or locked [kg, kg m2]
+  dem::Column<Row> lumped, own;  ///< see CellPass::factor, own; empty unless lumped
+  dem::Column<Row> violation, cell_impulse, spin_change;
+  dem::Column<Row> node_velocity, node_change;  ///< u; q
   dem::Column<Row> work;
+  std::vector<CellPass> passes;                      ///< blocks of cells, summed in their order
+  std::vector<std::int32_t> node_first, node_entry;  ///< where in cell_impulse a node finds its share
   /// Axes with the same locked motions share a factor.
   struct AxisGroup {
     std::array<bool, 3> axes = {false, false, false};

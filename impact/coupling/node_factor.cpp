@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t rows_per_block = 256;
 
-const RowLoops& chosen_row_loops() {
+}  // namespace
+
+const RowLoops& row_loops() {
   static const RowLoops chosen = dem::choose_instructions(baseline_row_loops
 #ifdef SPALL_X86
                                                           ,
@@ -22,13 +24,11 @@ const RowLoops& chosen_row_loops() {
   return chosen;
 }
 
-}  // namespace
-
 void multiply(const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& matrix, std::span<const Row> x,
               std::span<Row> result, int threads) {
   const auto rows = static_cast<std::size_t>(matrix.rows());
   const std::size_t blocks = (rows + rows_per_block - 1) / rows_per_block;
-  const RowLoops& loops = chosen_row_loops();
+  const RowLoops& loops = row_loops();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (std::size_t block = 0; block < blocks; ++block)
     loops.multiply(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), x.front().value,
@@ -62,8 +62,7 @@ void NodeFactor::solve(std::span<Row> x, dem::Column<Row>& work) const {
   const std::size_t size = order.size();
   work.resize(size);
   for (std::size_t i = 0; i < size; ++i) work[i] = x[static_cast<std::size_t>(order[i])];
-  chosen_row_loops().solve(first.data(), row.data(), value.data(), inverse_diagonal.data(), size,
-                           work.front().value);
+  row_loops().solve(first.data(), row.data(), value.data(), inverse_diagonal.data(), size, work.front().value);
   for (std::size_t i = 0; i < size; ++i) x[static_cast<std::size_t>(order[i])] = work[i];
 }
 

@@ -41,8 +41,8 @@ std::vector<fe::GaussWeights> finite_weights(const Zone& zone, const fe::Mesh& m
 /// b at every discrete element's centre; it multiplies the element's mass and inertia.
 std::vector<double> discrete_weights(const Zone& zone, std::span<const Vec3> centres);
 
-/// Multiplies the interaction area of pair k, and with it Kn, Ks and the strength, by the smaller weight of its
-/// elements a[k] and b[k].
+/// Multiplies the interaction area of pair k by the smaller weight of its elements a[k] and b[k], as the step's
+/// forces do by themselves (dem::Particles::set_weight): the energy ledger goes by the area.
 void weigh_links(std::span<const double> weights, std::span<const std::int32_t> a,
                  std::span<const std::int32_t> b, std::span<double> area);
 

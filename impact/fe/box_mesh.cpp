@@ -115,8 +115,9 @@ Mesh box_mesh(const BoxMeshOptions& options) {
       for (int k = 0; k <= n[2]; ++k)
         if (std::int32_t& node = number[node_place(i, j, k)]; node == 0) {
           node = static_cast<std::int32_t>(mesh.nodes.size());
-          mesh.nodes.push_back(options.origin + Vec3(options.size.x() * i / n[0], options.size.y() * j / n[1],
-                                                     options.size.z() * k / n[2]));
+          mesh.nodes.emplace_back(options.origin + Vec3(options.size.x() * i / n[0],
+                                                        options.size.y() * j / n[1],
+                                                        options.size.z() * k / n[2]));
         }
   mesh.elements.reserve(cells.size());
   for (const auto& [i, j, k] : cells) {

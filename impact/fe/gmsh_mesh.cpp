@@ -223,7 +223,7 @@ Mesh read_gmsh(const std::string& file, double unit) {
     std::unordered_map<std::size_t, std::int32_t> number;
     for (const std::size_t i : order) {
       number[mesh.node_tags[i]] = static_cast<std::int32_t>(mesh.nodes.size());
-      mesh.nodes.push_back(unit * Vec3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]));
+      mesh.nodes.emplace_back(unit * Vec3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]));
     }
     std::sort(mesh.node_tags.begin(), mesh.node_tags.end());
     std::vector<std::size_t> corner_tags;

@@ -32,9 +32,14 @@ Locator::Locator(const Mesh& of) : mesh(&of) {
     for (int i = first[0]; i <= last[0]; ++i)
       for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k)
-          members[static_cast<std::size_t>((i * cells[1] + j) * cells[2] + k)].push_back(
-              static_cast<std::int32_t>(e));
+          members[place_of(i, j, k)].push_back(static_cast<std::int32_t>(e));
   }
+}
+
+std::size_t Locator::place_of(int i, int j, int k) const {
+  return (static_cast<std::size_t>(i) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(j)) *
+             static_cast<std::size_t>(cells[2]) +
+         static_cast<std::size_t>(k);
 }
 
 std::array<int, 3> Locator::cell_of(const Vec3& point) const {
@@ -48,7 +53,7 @@ std::array<int, 3> Locator::cell_of(const Vec3& point) const {
 std::optional<PointInMesh> Locator::find(const Vec3& point, double tolerance) const {
   if (!point.allFinite()) return std::nullopt;
   const auto [i, j, k] = cell_of(point);
-  for (const std::int32_t element : members[static_cast<std::size_t>((i * cells[1] + j) * cells[2] + k)]) {
+  for (const std::int32_t element : members[place_of(i, j, k)]) {
     const Corners corners = mesh->corners(static_cast<std::size_t>(element));
     const Vec3 from = corners.colwise().minCoeff().transpose(), to = corners.colwise().maxCoeff().transpose();
     const double margin = (tolerance + 1e-6) * (to - from).norm();

@@ -26,6 +26,7 @@ class Locator {
 
  private:
   std::array<int, 3> cell_of(const Vec3& point) const;
+  std::size_t place_of(int i, int j, int k) const;
 
   const Mesh* mesh;
   Vec3 low = Vec3::Zero(), cell_size = Vec3::Ones();
