@@ -26,7 +26,8 @@ class CellLists {
 
   std::size_t points() const { return next.size(); }
 
-  /// Calls visit(j) for each point with distance <= reach [m] from `point`.
+  /// Calls visit(j, square) for each point with distance <= reach [m] from `point`; `square` is that
+  /// distance's.
   template <class Visit>
   void for_each_near(std::span<const Vec3> points, const Vec3& point, double reach, Visit&& visit) const {
     if (!(reach >= 0) || next.empty()) return;
@@ -37,7 +38,9 @@ class CellLists {
         const std::size_t row_end = frame.number_of(to[0], y, z) + 1;
         for (std::size_t cell = frame.number_of(from[0], y, z); cell < row_end; ++cell)
           for (std::int32_t j = head[cell]; j >= 0; j = next[static_cast<std::size_t>(j)])
-            if ((points[static_cast<std::size_t>(j)] - point).squaredNorm() <= reach2) visit(j);
+            if (const double square = (points[static_cast<std::size_t>(j)] - point).squaredNorm();
+                square <= reach2)
+              visit(j, square);
       }
   }
 

@@ -54,7 +54,7 @@ bool ContactDetector::update(const Particles& particles, Links& contacts, double
   // What is left of skin/2 must do for the coming step and should do for some more: a look costs a pass over
   // all elements, but an element that is listed anew early is listed anew more often.
   if (first) built_at.assign(particles.count, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-  const Look seen = look(particles, std::min(0.42 * skin, 0.5 * skin - max_speed * time_step), threads);
+  const Look seen = look(particles, std::min(0.3 * skin, 0.5 * skin - max_speed * time_step), threads);
   const double coming = std::max(max_speed, seen.fastest) * time_step;
   moved_at_most = seen.farthest_of_rest + coming;
   if (seen.far.empty()) return first;
@@ -124,12 +124,12 @@ std::vector<ContactDetector::Pair> ContactDetector::pairs_of(const Particles& pa
       const std::int32_t i = far[q];
       const auto at = static_cast<std::size_t>(i);
       const Vec3 place = built_at[at];
-      const auto meet = [&](std::int32_t j) {
+      const auto meet = [&](std::int32_t j, double square) {
         const auto other = static_cast<std::size_t>(j);
-        if (j == i || (j < i && is_far[other] != 0)) return;  // two far ends: the lower one asks
         const double near = particles.radius[at] + particles.radius[other] + margin;
-        if ((built_at[other] - place).squaredNorm() <= near * near && !is_linked(i, j))
-          found[part].emplace_back(std::min(i, j), std::max(i, j));
+        if (!(square <= near * near) || j == i) return;
+        if (j < i && is_far[other] != 0) return;  // of two far ends the lower one asks
+        if (!is_linked(i, j)) found[part].emplace_back(std::min(i, j), std::max(i, j));
       };
       const double reach = particles.radius[at] + largest_radius + margin;
       cells.for_each_near(built_at, place, reach, meet);

@@ -145,7 +145,7 @@ TEST(CellLists, FindWhatIsNearAfterAnyMoves) {
     lists.move(i, points[i], to);
     points[i] = to;
     std::multiset<int> near, all;
-    lists.for_each_near(points, to, 0.15, [&](int j) { near.insert(j); });
+    lists.for_each_near(points, to, 0.15, [&](int j, double) { near.insert(j); });
     for (int j = 0; j < static_cast<int>(points.size()); ++j)
       if ((points[static_cast<std::size_t>(j)] - to).squaredNorm() <= 0.15 * 0.15) all.insert(j);
     ASSERT_EQ(near, all) << "move " << n;
