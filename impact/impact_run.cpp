@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "impact/coupling/discrete_side.h"
 #include "impact/model.h"
 #include "impact/run_record.h"
 #include "libdem/core/error.h"
@@ -98,8 +99,7 @@ StepTaken advance(Run& run) {
                                            run.threads);
     const Clock::time_point start = Clock::now();
     const coupling::TieSums tied =
-        finite.ties.apply({&particles.kinematics.front().vx, sizeof(dem::Kinematics) / sizeof(double)},
-                          finite.nodes, model.time_step);
+        finite.ties.apply(coupling::velocities(particles), finite.nodes, model.time_step);
     run.record.overlap_seconds += seconds_since(start);
     run.room.max_speed = std::max(run.room.max_speed, std::sqrt(tied.max_speed_squared));
     // A strict tie's impulses do no work over a step, whatever they do to the velocity at its end.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "impact/coupling/discrete_side.h"
 #include "impact/fe/critical_step.h"
 #include "impact/fe/gmsh_mesh.h"
 #include "libdem/core/error.h"
@@ -101,26 +102,11 @@ std::unique_ptr<FiniteDomain> make_finite_domain(const Scene& scene, const speci
   }
 
   dem::Particles& particles = assembly.particles;
-  const std::vector<double> weights = coupling::discrete_weights(zone, particles.initial_position);
-  for (std::size_t i = 0; i < particles.count; ++i)
-    if (weights[i] != 1) particles.set_weight(i, weights[i]);
-  coupling::weigh_links(weights, {assembly.links.a.data(), assembly.links.count},
-                        {assembly.links.b.data(), assembly.links.count},
-                        {assembly.links.area.data(), assembly.links.count});
-
+  coupling::weigh(zone, particles, assembly.links);
   const coupling::KinematicMap map =
       coupling::make_kinematic_map(zone, mesh, *body, particles.initial_position, around.ties);
-  coupling::DiscreteMasses masses;
-  for (const std::int32_t i : map.elements) {
-    const auto element = static_cast<std::size_t>(i);
-    std::array<double, 6> row{};
-    for (std::size_t dof = 0; dof < 6; ++dof)
-      if (!particles.is_prescribed(element, static_cast<int>(dof)))
-        row[dof] = dof < 3 ? particles.element_mass(element) : particles.element_inertia(element);
-    masses.row.push_back(row);
-  }
   coupling::TieOptions options{around.solve, around.relaxation_time, threads};
-  coupling::Multipliers ties(map, masses, nodes, options);
+  coupling::Multipliers ties(map, coupling::tied_masses(map, particles), nodes, options);
   const double critical = fe::critical_time_step(*body);
   const int interval = around.interval > 0 ? around.interval : coupling::largest_interval(time_step, critical);
   if (interval * time_step > critical)
