@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "impact/coupling/discrete_side.h"
+#include "impact/coupling/pack_moduli.h"
 #include "impact/fe/critical_step.h"
 #include "impact/fe/gmsh_mesh.h"
 #include "libdem/core/error.h"
@@ -16,7 +17,6 @@
 #include "specimens/packing.h"
 #include "specimens/representative.h"
 #include "specimens/specimen_file.h"
-#include "specimens/virtual_tests/elastic.h"
 
 namespace impact {
 namespace {
@@ -73,9 +73,20 @@ fe::Material material_of(const Scene& scene, const specimens::Specimen& specimen
     return material;
   }
   // The card's E is what Eq. 1 aims at; this pack has its own, and the interface reflects the difference.
-  const virtual_tests::ElasticResult measured = virtual_tests::run_elastic(specimen, scene.card);
-  material.young_modulus = around.young_modulus.value_or(measured.young_modulus);
-  material.poisson_ratio = around.poisson_ratio.value_or(measured.poisson_ratio);
+  int through = 0, along = 0;
+  scene.size.minCoeff(&through);
+  double longest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != through && specimen.size[axis] > longest) longest = specimen.size[axis], along = axis;
+  const coupling::PackModuli moduli = coupling::measure_moduli(specimen, scene.card, through, along);
+  if (around.modulus == PackModulus::bulk && !moduli.bulk && !around.young_modulus)
+    throw dem::InputError("mesh.modulus", "the zone of discrete elements is too thin to have a bulk modulus",
+                          "allowed here: membrane, flexural, or give mesh.young_modulus");
+  const double measured = around.modulus == PackModulus::flexural   ? moduli.flexural
+                          : around.modulus == PackModulus::membrane ? moduli.membrane
+                                                                    : moduli.bulk.value_or(0);
+  material.young_modulus = around.young_modulus.value_or(measured);
+  material.poisson_ratio = around.poisson_ratio.value_or(moduli.poisson_ratio);
   return material;
 }
 

@@ -51,6 +51,10 @@ struct Structure {
   specimens::PackingOptions packing;              ///< of the whole box (de) or of the zone alone (coupled)
 };
 
+/// Which modulus of the pack the finite elements get, see coupling::PackModuli: that by which the structure
+/// works.
+enum class PackModulus { bulk, membrane, flexural };
+
 /// The finite elements of the coupled model and how they are tied.
 struct Surroundings {
   std::optional<std::filesystem::path> mesh_file;          ///< Gmsh; else structured:
@@ -58,8 +62,9 @@ struct Surroundings {
   fe::BoxMeshOptions box;                                  ///< the whole structure, with the zone cut out
   Vec3 zone_low = Vec3::Zero(), zone_high = Vec3::Zero();  ///< that discrete elements fill [m]
   double overlap = 0;                                      ///< thickness [m]
-  /// E and nu of the finite elements; empty: measured on the pack.
+  /// E and nu of the finite elements; empty: measured on the pack, E as `modulus` says.
   std::optional<double> young_modulus, poisson_ratio;
+  PackModulus modulus = PackModulus::flexural;
   coupling::Ties ties = coupling::Ties::displacements;
   coupling::MultiplierSolve solve = coupling::MultiplierSolve::consistent;
   double relaxation_time = 0;  ///< [s]
