@@ -10,13 +10,46 @@
 namespace coupling {
 namespace {
 
+/// Finite elements must go on behind every coupled face, and must not fill what discrete elements have alone.
+void check_surrounds(const Zone& zone, const fe::Mesh& mesh, const fe::Locator& locator) {
+  constexpr int samples = 5;
+  for (int face = 0; face < 6; ++face) {
+    if (!zone.coupled[static_cast<std::size_t>(face)]) continue;
+    const int axis = face / 2, second = (axis + 1) % 3, third = (axis + 2) % 3;
+    for (int i = 0; i < samples; ++i)
+      for (int j = 0; j < samples; ++j) {
+        Vec3 local;
+        local[axis] = (face % 2 == 0 ? -1 : 1) * (zone.half_size[axis] + 1e-3 * zone.thickness);
+        local[second] = zone.half_size[second] * (2 * (i + 0.5) / samples - 1);
+        local[third] = zone.half_size[third] * (2 * (j + 0.5) / samples - 1);
+        const Vec3 x = zone.centre + zone.axes * local;
+        if (!locator.find(x))
+          throw dem::InputError(
+              mesh.origin,
+              fmt::format("no finite element lies behind the zone's coupled face at ({:.4g}, {:.4g}, {:.4g}) m",
+                          x.x(), x.y(), x.z()),
+              "the mesh must surround the zone of discrete elements");
+      }
+  }
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double farthest = -1;
+    for (const std::int32_t node : mesh.elements[e])
+      farthest = std::max(farthest, zone.overlap_coordinate(mesh.nodes[static_cast<std::size_t>(node)]));
+    if (farthest <= 1e-6)
+      throw dem::InputError(
+          mesh.origin,
+          fmt::format("element {} lies where there are discrete elements alone", mesh.element_tag(e)),
+          "cut the zone out of the mesh, less the overlap");
+  }
+}
+
 struct TiedElement {
   std::int32_t element = 0;
   fe::PointInMesh place;
 };
 
-std::vector<TiedElement> find_tied(const Zone& zone, const fe::Mesh& mesh, std::span<const Vec3> centres) {
-  const fe::Locator locator(mesh);
+std::vector<TiedElement> find_tied(const Zone& zone, const fe::Mesh& mesh, const fe::Locator& locator,
+                                   std::span<const Vec3> centres) {
   std::vector<TiedElement> tied;
   std::size_t outside = 0, first_outside = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -50,7 +83,9 @@ std::vector<TiedElement> find_tied(const Zone& zone, const fe::Mesh& mesh, std::
 KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe::Body& body,
                                 std::span<const Vec3> centres, Ties ties) {
   zone.validate();
-  const std::vector<TiedElement> tied = find_tied(zone, mesh, centres);
+  const fe::Locator locator(mesh);
+  check_surrounds(zone, mesh, locator);
+  const std::vector<TiedElement> tied = find_tied(zone, mesh, locator, centres);
   KinematicMap map;
   map.ties = ties;
   std::vector<std::int32_t> place(body.nodes(), -1);  // of a node among map.nodes

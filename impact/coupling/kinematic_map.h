@@ -32,7 +32,8 @@ struct KinematicMap {
 };
 
 /// Ties every element whose centre has an overlap coordinate above 0. Throws InputError if one of them lies in
-/// no finite element, if nothing is tied, or if the mesh does not reach the overlap's inner border.
+/// no finite element, if nothing is tied, if a coupled face has no finite elements behind it, or if there are
+/// some where discrete elements should be alone.
 KinematicMap make_kinematic_map(const Zone& zone, const fe::Mesh& mesh, const fe::Body& body,
                                 std::span<const Vec3> centres, Ties ties = Ties::displacements);
 

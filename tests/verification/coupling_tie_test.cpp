@@ -339,6 +339,18 @@ TEST(Coupling, RefusesWhatDoesNotFit) {
   const fe::Body body(thin, {30e9, 0.2, 2500});
   EXPECT_THAT(refusal([&] { coupling::make_kinematic_map(zone, thin, body, island.centres); }),
               testing::AllOf(HasSubstr("lie in no finite element"), HasSubstr("surround the zone")));
+  options.zone.reset();  // no hole
+  const fe::Mesh full = fe::box_mesh(options);
+  const fe::Body full_body(full, {30e9, 0.2, 2500});
+  EXPECT_THAT(refusal([&] { coupling::make_kinematic_map(zone, full, full_body, island.centres); }),
+              HasSubstr("lies where there are discrete elements alone"));
+  options.size.x() = 1.4;  // ends at the zone's face
+  options.elements[0] = 7;
+  options.zone = fe::DiscreteZone{Vec3::Constant(-0.6), Vec3::Constant(0.6), 2};
+  const fe::Mesh open = fe::box_mesh(options);
+  const fe::Body open_body(open, {30e9, 0.2, 2500});
+  EXPECT_THAT(refusal([&] { coupling::make_kinematic_map(zone, open, open_body, island.centres); }),
+              testing::AllOf(HasSubstr("no finite element lies behind"), HasSubstr("surround the zone")));
   const std::vector<Vec3> one = {Vec3::Zero()};
   EXPECT_THAT(refusal([&] { coupling::make_kinematic_map(zone, island.mesh, *island.body, one); }),
               HasSubstr("no discrete element lies in the overlap"));
