@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "libdem/core/error.h"
 
@@ -33,22 +33,32 @@ void require_finite(const std::vector<Vec3>& vertices, const std::vector<Triangl
     }
 }
 
-/// Makes one vertex of all that have the same coordinates, numbered in the order of first use.
+/// Makes one vertex of all that have the same coordinates, numbered by these.
 void weld(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, std::vector<Vec3>& points,
           std::vector<Triangle>& corners) {
-  std::map<std::tuple<double, double, double>, std::int32_t> known;
+  const auto before = [](const Vec3& p, const Vec3& q) {
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  for (const Triangle& triangle : triangles)
+    for (const std::int32_t v : triangle) points.push_back(vertices[at(v)]);
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   corners.reserve(triangles.size());
   for (const Triangle& triangle : triangles) {
-    Triangle welded{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& p = vertices[at(triangle[k])];
-      const auto [entry, is_new] =
-          known.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::int32_t>(points.size()));
-      if (is_new) points.push_back(p);
-      welded[k] = entry->second;
-    }
-    corners.push_back(welded);
+    Triangle& welded = corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      welded[k] = static_cast<std::int32_t>(
+          std::lower_bound(points.begin(), points.end(), vertices[at(triangle[k])], before) - points.begin());
   }
+}
+
+/// A triangle walks along an edge from one vertex to another.
+struct Walk {
+  std::int32_t from, to, triangle;
+};
+
+bool along_before(const Walk& one, const Walk& other) {
+  return std::pair(one.from, one.to) < std::pair(other.from, other.to);
 }
 
 /// The nearest point of a triangle and the feature that it lies on: 0-2 a vertex, 3-5 the edge 01, 12, 20, 6
@@ -114,19 +124,20 @@ void TriangleMesh::require_area(const std::string& name) const {
 }
 
 void TriangleMesh::find_normals(const std::string& name) {
-  // Which triangle walks along the edge from one vertex to another: in a closed, consistently oriented surface
-  // exactly one does, and exactly one comes back.
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> walks;
+  // In a closed, consistently oriented surface exactly one triangle walks along an edge, and exactly one back.
+  std::vector<Walk> walks;
+  walks.reserve(3 * corners.size());
   for (std::size_t t = 0; t < corners.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::pair edge{corners[t][k], corners[t][(k + 1) % 3]};
-      const auto [other, is_new] = walks.try_emplace(edge, static_cast<std::int32_t>(t));
-      if (!is_new)
-        throw dem::InputError(
-            fmt::format("{}: triangle {}", name, t + 1),
-            fmt::format("it runs along an edge in the same sense as triangle {}", other->second + 1),
-            "neighbours must be oriented alike, and an edge belongs to two triangles: repair the mesh");
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      walks.push_back({corners[t][k], corners[t][(k + 1) % 3], static_cast<std::int32_t>(t)});
+  std::stable_sort(walks.begin(), walks.end(), along_before);
+  const auto twice = std::adjacent_find(
+      walks.begin(), walks.end(), [](const Walk& one, const Walk& other) { return !along_before(one, other); });
+  if (twice != walks.end())
+    throw dem::InputError(
+        fmt::format("{}: triangle {}", name, std::next(twice)->triangle + 1),
+        fmt::format("it runs along an edge in the same sense as triangle {}", twice->triangle + 1),
+        "neighbours must be oriented alike, and an edge belongs to two triangles: repair the mesh");
   face_normal.resize(corners.size());
   for (std::size_t t = 0; t < corners.size(); ++t) {
     const Vec3& a = points[at(corners[t][0])];
@@ -137,12 +148,12 @@ void TriangleMesh::find_normals(const std::string& name) {
   for (std::size_t t = 0; t < corners.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t from = corners[t][k], to = corners[t][(k + 1) % 3];
-      const auto back = walks.find({to, from});
-      if (back == walks.end())
+      const auto back = std::lower_bound(walks.begin(), walks.end(), Walk{to, from, 0}, along_before);
+      if (back == walks.end() || back->from != to || back->to != from)
         throw dem::InputError(fmt::format("{}: triangle {}", name, t + 1),
                               "no other triangle shares one of its edges: the surface is open there",
                               "an impactor needs a closed surface: repair the mesh");
-      edge_normal[t][k] = face_normal[t] + face_normal[at(back->second)];
+      edge_normal[t][k] = face_normal[t] + face_normal[at(back->triangle)];
       const Vec3 one = points[at(to)] - points[at(from)];
       const Vec3 other = points[at(corners[t][(k + 2) % 3])] - points[at(from)];
       vertex_normal[at(from)] += std::atan2(one.cross(other).norm(), one.dot(other)) * face_normal[t];
@@ -150,31 +161,27 @@ void TriangleMesh::find_normals(const std::string& name) {
 }
 
 void TriangleMesh::build_tree() {
+  std::vector<Vec3> middles;  // three times over: only their order counts
+  middles.reserve(corners.size());
+  for (const auto& [a, b, c] : corners) middles.emplace_back(points[at(a)] + points[at(b)] + points[at(c)]);
   order.resize(corners.size());
   std::iota(order.begin(), order.end(), 0);
-  nodes.clear();
-  nodes.reserve(2 * corners.size());
+  nodes.reserve(corners.size());
   nodes.push_back({{}, 0, static_cast<std::int32_t>(corners.size())});
-  for (std::size_t n = 0; n < nodes.size(); ++n) split(n);
+  for (std::size_t n = 0; n < nodes.size(); ++n) split(n, middles);
+  fit_boxes();
 }
 
-void TriangleMesh::split(std::size_t n) {
+void TriangleMesh::split(std::size_t n, const std::vector<Vec3>& middles) {
   const std::int32_t first = nodes[n].first, count = nodes[n].count;
-  Eigen::AlignedBox3d box, middles;
-  const auto middle = [&](std::int32_t t) -> Vec3 {
-    return points[at(corners[at(t)][0])] + points[at(corners[at(t)][1])] + points[at(corners[at(t)][2])];
-  };
-  for (std::int32_t k = first; k < first + count; ++k) {
-    for (const std::int32_t v : corners[at(order[at(k)])]) box.extend(points[at(v)]);
-    middles.extend(middle(order[at(k)]));
-  }
-  nodes[n].box = box;
   if (count <= leaf_size) return;
+  Eigen::AlignedBox3d box;
+  for (std::int32_t k = first; k < first + count; ++k) box.extend(middles[at(order[at(k)])]);
   Eigen::Index axis = 0;
-  middles.sizes().maxCoeff(&axis);
+  box.sizes().maxCoeff(&axis);
   const auto begin = order.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::int32_t s, std::int32_t t) {
-    return std::pair(middle(s)[axis], s) < std::pair(middle(t)[axis], t);
+    return std::pair(middles[at(s)][axis], s) < std::pair(middles[at(t)][axis], t);
   });
   // nth_element leaves the order within the halves to the library; bits must not depend on it.
   std::sort(begin, begin + count / 2);
@@ -185,10 +192,26 @@ void TriangleMesh::split(std::size_t n) {
   nodes.push_back({{}, first + count / 2, count - count / 2});
 }
 
+void TriangleMesh::fit_boxes() {
+  leaf_corners.clear();
+  leaf_corners.reserve(order.size());
+  for (const std::int32_t t : order) {
+    const auto& [a, b, c] = corners[at(t)];
+    leaf_corners.push_back({points[at(a)], points[at(b)], points[at(c)]});
+  }
+  for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parents
+    Node& node = nodes[n];
+    node.box.setEmpty();
+    for (std::int32_t k = node.first; k < node.first + node.count; ++k)
+      for (const Vec3& p : leaf_corners[at(k)]) node.box.extend(p);
+    if (node.count == 0) node.box = nodes[at(node.first)].box.merged(nodes[at(node.first + 1)].box);
+  }
+}
+
 Nearest TriangleMesh::nearest(const Vec3& p) const {
   double best = std::numeric_limits<double>::infinity();
   OnTriangle found{};
-  std::size_t where = 0;
+  std::int32_t leaf = 0;
   struct Waiting {
     std::int32_t node;
     double square;
@@ -202,11 +225,10 @@ Nearest TriangleMesh::nearest(const Vec3& p) const {
     const Node& node = nodes[at(next.node)];
     if (node.count > 0) {
       for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
-        const std::size_t t = at(order[at(k)]);
-        const OnTriangle here = nearest_on_triangle(p, points[at(corners[t][0])], points[at(corners[t][1])],
-                                                    points[at(corners[t][2])]);
+        const auto& [a, b, c] = leaf_corners[at(k)];
+        const OnTriangle here = nearest_on_triangle(p, a, b, c);
         const double square = (p - here.point).squaredNorm();
-        if (square < best) best = square, found = here, where = t;
+        if (square < best) best = square, found = here, leaf = k;
       }
       continue;
     }
@@ -216,6 +238,7 @@ Nearest TriangleMesh::nearest(const Vec3& p) const {
     stack[height++] = other;
     stack[height++] = one;
   }
+  const std::size_t where = at(order[at(leaf)]);
   const auto f = static_cast<std::size_t>(found.feature);
   const Vec3 pseudo = f < 3   ? vertex_normal[at(corners[where][f])]
                       : f < 6 ? edge_normal[where][f - 3]
@@ -230,7 +253,7 @@ Nearest TriangleMesh::nearest(const Vec3& p) const {
 
 void TriangleMesh::translate(const Vec3& by) {
   for (Vec3& p : points) p += by;
-  build_tree();
+  fit_boxes();
 }
 
 }  // namespace impact

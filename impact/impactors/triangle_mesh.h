@@ -53,13 +53,15 @@ class TriangleMesh {
   void require_area(const std::string& name) const;
   void find_normals(const std::string& name);
   void build_tree();
-  void split(std::size_t node);
+  void split(std::size_t node, const std::vector<Vec3>& middles);
+  void fit_boxes();
 
   std::vector<Vec3> points;
   std::vector<Triangle> corners;
   std::vector<Vec3> face_normal, vertex_normal;
   std::vector<std::array<Vec3, 3>> edge_normal;  ///< of the edges 01, 12, 20 of a triangle
   std::vector<std::int32_t> order;
+  std::vector<std::array<Vec3, 3>> leaf_corners;  ///< along `order`: side by side in memory for the search
   std::vector<Node> nodes;
 };
 
