@@ -37,12 +37,13 @@ void require_whole(const std::filesystem::path& file, const VtkGrid& grid) {
   check_fields(grid.cell_data, "cells", grid.cell_count());
 }
 
-void write_fields(Hdf5File& out, const std::string& group, const std::vector<VtkField>& fields) {
+void write_fields(Hdf5File& out, const std::string& group, const std::vector<VtkField>& fields,
+                  const Hdf5Storage& storage) {
   out.make_group(group);
   for (const VtkField& field : fields)
     std::visit(
         [&](const auto& values) {
-          out.write(group + "/" + field.name, values, field.components > 1 ? field.components : 0);
+          out.write(group + "/" + field.name, values, field.components > 1 ? field.components : 0, storage);
         },
         field.values);
 }
@@ -67,7 +68,7 @@ void VtkGrid::add_vertices() {
     add_cell(VtkCell::vertex, {static_cast<std::int64_t>(point)});
 }
 
-void write_vtkhdf(const std::filesystem::path& file, const VtkGrid& grid) {
+void write_vtkhdf(const std::filesystem::path& file, const VtkGrid& grid, int gzip) {
   require_whole(file, grid);
   write_file_atomically(file, [&](const std::filesystem::path& part) {
     Hdf5File out = Hdf5File::create(part);
@@ -82,12 +83,13 @@ void write_vtkhdf(const std::filesystem::path& file, const VtkGrid& grid) {
     write_number("NumberOfPoints", grid.point_count());
     write_number("NumberOfCells", grid.cell_count());
     write_number("NumberOfConnectivityIds", grid.connectivity.size());
-    out.write("VTKHDF/Points", grid.points, 3);
-    out.write("VTKHDF/Connectivity", grid.connectivity);
-    out.write("VTKHDF/Offsets", grid.offsets);
-    out.write("VTKHDF/Types", grid.types);
-    write_fields(out, "VTKHDF/PointData", grid.point_data);
-    write_fields(out, "VTKHDF/CellData", grid.cell_data);
+    const Hdf5Storage storage{.gzip = gzip};
+    out.write("VTKHDF/Points", grid.points, 3, storage);
+    out.write("VTKHDF/Connectivity", grid.connectivity, 0, storage);
+    out.write("VTKHDF/Offsets", grid.offsets, 0, storage);
+    out.write("VTKHDF/Types", grid.types, 0, storage);
+    write_fields(out, "VTKHDF/PointData", grid.point_data, storage);
+    write_fields(out, "VTKHDF/CellData", grid.cell_data, storage);
     out.close();
   });
 }

@@ -46,7 +46,7 @@ struct VtkGrid {
 
 /// Writes the grid (group /VTKHDF) whole or not at all. Throws RunError if it cannot be written, or if the
 /// grid is not whole: a cell that names a point that is not there, a field of the wrong length, a name that is
-/// not allowed.
-void write_vtkhdf(const std::filesystem::path& file, const VtkGrid& grid);
+/// not allowed. `gzip`: 0 (as it is) to 9, see Hdf5Storage.
+void write_vtkhdf(const std::filesystem::path& file, const VtkGrid& grid, int gzip = 0);
 
 }  // namespace dem
