@@ -26,11 +26,6 @@ struct Made {
 };
 const Made& specimen_of(const Size& size);
 
-template <class Room>
-void settle_if_needed(dem::Assembly& assembly, const Room& room) {
-  if constexpr (requires { settle(assembly, room); }) settle(assembly, room);
-}
-
 /// An assembly under way.
 struct Run {
   dem::Assembly assembly;
@@ -42,7 +37,7 @@ struct Run {
     for (long s = 0; s < count; ++s) dem::advance(assembly, room, options);
   }
   /// Brings the links' histories up to date in `assembly`.
-  void settle() { settle_if_needed(assembly, room); }
+  void settle() { dem::settle(assembly, room); }
 };
 
 /// The specimen between two platens that close slowly, from rest: law, damping, ledger, detection, all on.
