@@ -65,6 +65,8 @@ TEST_F(DocsExamples, EveryTomlBlockIsACase) {
     auto cases = blocks_between(text, "```toml\n", "\n```");
     for (const std::string& typed : blocks_between(text, "<<'CASE'\n", "\nCASE")) cases.push_back(typed);
     for (const std::string& block : cases) {
+      // Cases of impacts are read by unit/scene_file_test.
+      if (block.find("[impactor]") != std::string::npos) continue;
       EXPECT_EQ(refusal_of(block), "") << document << ":\n" << block;
       ++blocks;
     }

@@ -1,0 +1,197 @@
+// case.toml -> Scene. docs/cases.md is the reader's side of the scene_*.cpp files: keep them together.
+#include "impact/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "impact/scene_parts.h"
+#include "specimens/interaction_range.h"
+#include "specimens/representative.h"
+#include "specimens/specimen_file.h"
+
+namespace impact {
+namespace {
+
+using dem::Quantity;
+using dem::TomlTable;
+
+TomlTable need(const TomlTable& root, const char* name) {
+  if (!root.has(name))
+    root.fail(name, "the table is missing",
+              fmt::format("write it as [{}] with its keys on the lines below", name));
+  return root.table(name);
+}
+
+void read_card_of(const TomlTable& root, Scene& scene) {
+  const std::filesystem::path file = read_path(root, "card");
+  scene.inputs.push_back(file);
+  scene.card = told_about(root, "card", [&] { return dem::read_card(file); });
+}
+
+void read_size(const TomlTable& structure, Scene& scene) {
+  scene.size = read_lengths(structure, "size", "2.5x2.0x0.28 m");
+  for (int k = 0; k < 3; ++k)
+    if (!(scene.size[k] > 1e-3 && scene.size[k] < 1000))
+      structure.fail("size", fmt::format("has a side of {:g} m", scene.size[k]), "allowed: 1 mm to 1 km");
+}
+
+/// The interaction range is set where elements have neighbours on all sides; without such elements the run
+/// would end after the packing.
+void require_enough_inside(const TomlTable& structure, const specimens::PackingOptions& packing) {
+  const double element = std::cbrt(packing.size.prod() / static_cast<double>(packing.elements));
+  const Vec3 inside = (packing.size - Vec3::Constant(2 * specimens::internal_depth * element)).cwiseMax(0);
+  const double count = inside.prod() / (element * element * element);
+  if (count < static_cast<double>(specimens::least_internal_elements))
+    structure.fail(
+        "elements",
+        fmt::format("of {} in {:.4g} x {:.4g} x {:.4g} m, {:.0f} are deeper than two element sizes",
+                    packing.elements, packing.size.x(), packing.size.y(), packing.size.z(), count),
+        fmt::format("at least {} are needed, take more elements", specimens::least_internal_elements));
+}
+
+/// Elements of the whole structure or, in a coupled case, the zone's share of them by volume: an element has
+/// the same size in both models.
+void read_packing(const TomlTable& structure, const Vec3& size, Scene& scene) {
+  specimens::PackingOptions& packing = scene.structure.packing;
+  packing.size = size;
+  const std::int64_t whole = structure.integer("elements", 1, 10'000'000);
+  const double share = size.prod() / scene.size.prod();
+  packing.elements = static_cast<std::size_t>(std::llround(share * static_cast<double>(whole)));
+  scene.seed = static_cast<std::uint64_t>(structure.optional_integer("seed", 0).value_or(1));
+  packing.seed = scene.seed;
+  if (const auto ratio = structure.optional_number("size_ratio")) packing.grading.size_ratio = *ratio;
+  told_about(structure, "size_ratio", [&] { packing.grading.validate(); });
+  require_enough_inside(structure, packing);
+}
+
+void read_specimen_file(const TomlTable& structure, const Vec3& size, Scene& scene) {
+  for (const char* key : {"elements", "seed", "size_ratio"})
+    if (structure.has(key))
+      structure.fail(key, "has no meaning beside specimen",
+                     "the specimen has its elements already; leave this key out");
+  const std::filesystem::path file = read_path(structure, "specimen");
+  scene.inputs.push_back(file);
+  const specimens::Specimen specimen =
+      told_about(structure, "specimen", [&] { return specimens::read_specimen(file); });
+  const bool zone = scene.model == Model::coupled;
+  if (specimen.shape != specimens::Shape::box || !((specimen.size - size).norm() <= 1e-6 * size.norm()))
+    structure.fail("specimen",
+                   fmt::format("it is a {} of {:g} x {:g} x {:g} m", specimens::name_of(specimen.shape),
+                               specimen.size.x(), specimen.size.y(), specimen.size.z()),
+                   fmt::format("it must be a box of the {}, {:g} x {:g} x {:g} m{}",
+                               zone ? "zone's size" : "structure's size", size.x(), size.y(), size.z(),
+                               zone ? " (`spall specimen extract` cuts one out)" : ""));
+  scene.structure.specimen = file;
+  scene.structure.packing.size = specimen.size;
+  scene.structure.packing.elements = specimen.elements();
+  scene.seed = scene.structure.packing.seed = specimen.seed;
+}
+
+std::vector<Support> read_supports(const TomlTable& root, const Vec3& size) {
+  std::vector<Support> supports;
+  std::vector<std::string> names;
+  for (const TomlTable& table : root.tables("support")) {
+    table.allow_only({"name", "low", "high", "centre", "size", "lock"});
+    Support support;
+    support.name = read_name(table, names);
+    names.push_back(support.name);
+    const Region region = read_region(table);
+    support.low = region.low, support.high = region.high;
+    for (int k = 0; k < 3; ++k)
+      if (!(region.low[k] < size[k] && region.high[k] > 0))
+        table.fail(region.low[k] < size[k] ? region.high_key : region.low_key,
+                   fmt::format("from {:g} to {:g} m along {} there is no structure", region.low[k],
+                               region.high[k], axis_name[k]),
+                   fmt::format("it reaches from 0 to {:g} m", size[k]));
+    const std::vector<std::string> locked =
+        table.has("lock") ? table.texts("lock") : std::vector<std::string>{};
+    if (locked.empty()) table.fail("lock", "locks nothing", "name axes, as in lock = [\"z\"]");
+    for (const std::string& axis : locked) {
+      if (axis != "x" && axis != "y" && axis != "z")
+        table.fail("lock", fmt::format("\"{}\" is no axis", axis), "allowed: x, y, z");
+      support.locked[static_cast<std::size_t>(axis[0] - 'x')] = true;
+    }
+    supports.push_back(support);
+  }
+  return supports;
+}
+
+std::vector<Probe> read_probes(const TomlTable& root, const Vec3& size) {
+  std::vector<Probe> probes;
+  std::vector<std::string> names;
+  for (const TomlTable& table : root.tables("probe")) {
+    table.allow_only({"name", "point"});
+    Probe probe;
+    probe.name = read_name(table, names);
+    names.push_back(probe.name);
+    probe.point = read_lengths(table, "point", "1.25,1.0,0 m");
+    for (int k = 0; k < 3; ++k)
+      if (!(probe.point[k] >= 0 && probe.point[k] <= size[k]))
+        table.fail("point", fmt::format("{} = {:g} m lies outside the structure", axis_name[k], probe.point[k]),
+                   fmt::format("it reaches from 0 to {:g} m", size[k]));
+    probes.push_back(probe);
+  }
+  return probes;
+}
+
+void read_run(const TomlTable& run, Scene& scene) {
+  run.allow_only({"duration", "time_step_fraction", "damping", "samples"});
+  scene.duration = read_positive(run, "duration", Quantity::time);
+  scene.time_step_fraction = read_number(
+      run, "time_step_fraction", scene.time_step_fraction, [](double value) { return value > 0 && value < 1; },
+      "above 0 to below 1, of the critical step");
+  scene.damping = read_number(
+      run, "damping", 0, [](double value) { return value >= 0 && value < 1; }, "0 to below 1");
+  scene.sample_interval =
+      scene.duration / static_cast<double>(run.optional_integer("samples", 1, 1'000'000).value_or(2000));
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  const TomlTable root = TomlTable::read(file);
+  root.allow_only({"title", "model", "card", "structure", "zone", "mesh", "coupling", "support", "impactor",
+                   "probe", "run", "output"});
+  Scene scene;
+  scene.inputs.push_back(file);
+  scene.title = root.text("title", file.stem().string());
+  scene.model = root.choice("model", {"de", "coupled"}) == "de" ? Model::de : Model::coupled;
+  read_card_of(root, scene);
+
+  const TomlTable structure = need(root, "structure");
+  structure.allow_only({"size", "elements", "seed", "size_ratio", "specimen", "compressive_strength"});
+  read_size(structure, scene);
+  // One word switches between the models: what the coupled one needs may stay in a case of discrete elements,
+  // and is checked all the same.
+  if (scene.model == Model::coupled || root.has("zone") || root.has("mesh") || root.has("coupling")) {
+    std::vector<std::filesystem::path> mesh_files;
+    const Surroundings surroundings = read_surroundings(root, scene.size, mesh_files);
+    if (scene.model == Model::coupled) {
+      scene.surroundings = surroundings;
+      scene.inputs.insert(scene.inputs.end(), mesh_files.begin(), mesh_files.end());
+    }
+  }
+  const Vec3 discrete =
+      scene.surroundings ? Vec3(scene.surroundings->zone_high - scene.surroundings->zone_low) : scene.size;
+  if (structure.has("specimen"))
+    read_specimen_file(structure, discrete, scene);
+  else
+    read_packing(structure, discrete, scene);
+  if (structure.has("compressive_strength"))
+    scene.compressive_strength = read_positive(structure, "compressive_strength", Quantity::stress);
+
+  scene.supports = read_supports(root, scene.size);
+  read_impactor(need(root, "impactor"), scene);
+  scene.probes = read_probes(root, scene.size);
+  read_run(need(root, "run"), scene);
+  if (const auto output = root.optional_table("output")) {
+    output->allow_only({"frames"});
+    scene.frames = static_cast<int>(output->optional_integer("frames", 0, 100'000).value_or(scene.frames));
+  }
+  root.finish();
+  return scene;
+}
+
+}  // namespace impact

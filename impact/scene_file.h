@@ -1,0 +1,14 @@
+// The case file of an impact.
+#pragma once
+#include <filesystem>
+
+#include "impact/scene.h"
+
+namespace impact {
+
+/// Reads and checks case.toml and the files that it names: card, specimen, mesh, STL. docs/cases.md lists the
+/// keys. Whatever can be told without packing or running is told here. Throws InputError: one line that names
+/// file, line and key, what is wrong and what is allowed.
+Scene read_scene(const std::filesystem::path& file);
+
+}  // namespace impact

@@ -1,0 +1,165 @@
+// The finite elements of a coupled case: the zone that they surround, their mesh, how both are tied.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "impact/fe/gmsh_mesh.h"
+#include "impact/scene_parts.h"
+
+namespace impact {
+namespace {
+
+using dem::Quantity;
+using dem::TomlTable;
+
+TomlTable need(const TomlTable& root, const char* name) {
+  if (!root.has(name))
+    root.fail(name, "the table is missing",
+              "a coupled case has [zone] and [mesh]; model = \"de\" needs neither");
+  return root.table(name);
+}
+
+/// The zone inside the structure. A face within rounding of the structure's is on it: whether finite elements
+/// go on behind a face is told by exactly that.
+void read_zone(const TomlTable& zone, const Vec3& size, Surroundings& result) {
+  const Region region = read_region(zone);
+  result.zone_low = region.low, result.zone_high = region.high;
+  const double rounding = 1e-9 * size.norm();
+  bool surrounded = false;
+  for (int k = 0; k < 3; ++k) {
+    double &low = result.zone_low[k], &high = result.zone_high[k];
+    if (std::abs(low) <= rounding) low = 0;
+    if (std::abs(high - size[k]) <= rounding) high = size[k];
+    if (low < 0 || high > size[k])
+      zone.fail(low < 0 ? region.low_key : region.high_key,
+                fmt::format("the zone reaches from {:g} to {:g} m along {}", low, high, axis_name[k]),
+                fmt::format("it must lie inside the structure, from 0 to {:g} m", size[k]));
+    surrounded = surrounded || low > 0 || high < size[k];
+  }
+  if (!surrounded)
+    zone.fail(region.low_key, "the zone fills the whole structure, no finite element would remain",
+              "make it smaller, or take model = \"de\"");
+}
+
+/// Whether finite elements go on behind one of the zone's faces across `axis`.
+bool coupled_along(const Surroundings& s, const Vec3& size, int axis) {
+  return s.zone_low[axis] > 0 || s.zone_high[axis] < size[axis];
+}
+
+/// The overlap has one thickness, so the layers must have about the same along all axes that are coupled.
+double thickness_of_layers(const TomlTable& mesh, const Surroundings& s, const Vec3& size) {
+  double least = 0, most = 0;
+  int least_axis = 0, most_axis = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (!coupled_along(s, size, k)) continue;
+    const double element = size[k] / s.box.elements[static_cast<std::size_t>(k)];
+    if (least == 0 || element < least) least = element, least_axis = k;
+    if (element > most) most = element, most_axis = k;
+  }
+  if (most > 1.1 * least)
+    mesh.fail("elements",
+              fmt::format("an element measures {:.4g} m along {} and {:.4g} m along {}", least,
+                          axis_name[least_axis], most, axis_name[most_axis]),
+              "across the zone's coupled faces they may differ by a tenth: the overlap has one thickness");
+  return s.box.zone->overlap_layers * least;
+}
+
+void read_structured(const TomlTable& zone, const TomlTable& mesh, const Vec3& size, Surroundings& result) {
+  if (zone.has("overlap"))
+    zone.fail("overlap", "is the thickness of an overlap with a mesh from a file",
+              "a structured mesh counts its overlap in elements, as in layers = 3");
+  const std::vector<std::int64_t> elements = mesh.integers("elements");
+  if (elements.size() != 3)
+    mesh.fail("elements",
+              fmt::format("has {} number{}, not three", elements.size(), elements.size() == 1 ? "" : "s"),
+              "write it as in elements = [38, 30, 4]");
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (elements[k] < 1 || elements[k] > 10'000)
+      mesh.fail("elements", fmt::format("{} along {}", elements[k], axis_name[k]), "allowed: 1 to 10000");
+    result.box.elements[k] = static_cast<int>(elements[k]);
+  }
+  result.box.size = size;
+  const auto layers = static_cast<int>(zone.optional_integer("layers", 1, 1000).value_or(3));
+  result.box.zone = fe::DiscreteZone{result.zone_low, result.zone_high, layers};
+  told_about(mesh, "elements", [&] { result.box.validate(); });
+  result.overlap = thickness_of_layers(mesh, result, size);
+}
+
+void read_mesh_file(const TomlTable& zone, const TomlTable& mesh, const Vec3& size, Surroundings& result,
+                    std::vector<std::filesystem::path>& inputs) {
+  if (zone.has("layers"))
+    zone.fail("layers", "counts the elements of a structured mesh",
+              "an overlap with a mesh from a file has a thickness, as in overlap = \"0.2 m\"");
+  result.overlap = read_positive(zone, "overlap", Quantity::length);
+  for (int k = 0; k < 3; ++k) {
+    const int faces = (result.zone_low[k] > 0 ? 1 : 0) + (result.zone_high[k] < size[k] ? 1 : 0);
+    const double side = result.zone_high[k] - result.zone_low[k];
+    if (faces * result.overlap >= side)
+      zone.fail("overlap",
+                fmt::format("{} of {:g} m leave nothing of the zone's {:g} m along {}",
+                            faces == 1 ? "an overlap" : "two overlaps", result.overlap, side, axis_name[k]),
+                "make the zone larger or the overlap thinner");
+  }
+  const std::filesystem::path file = read_path(mesh, "file");
+  result.mesh_unit = read_length_unit(mesh);
+  // Read now, so that whatever is wrong with it is told before anything is packed.
+  const fe::Mesh read =
+      told_about(mesh, "file", [&] { return fe::read_gmsh(file.string(), result.mesh_unit); });
+  Vec3 low = read.nodes.front(), high = low;
+  for (const Vec3& node : read.nodes) low = low.cwiseMin(node), high = high.cwiseMax(node);
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(low[k]) > 1e-6 * size.norm() || std::abs(high[k] - size[k]) > 1e-6 * size.norm())
+      mesh.fail("file",
+                fmt::format("the mesh reaches from {:g} to {:g} m along {}", low[k], high[k], axis_name[k]),
+                fmt::format("it must be as large as the structure, from 0 to {:g} m", size[k]));
+  result.mesh_file = file;
+  inputs.push_back(file);
+}
+
+void read_coupling(const TomlTable& table, Surroundings& result) {
+  table.allow_only({"ties", "solve", "relaxation_time", "interval"});
+  if (table.choice("ties", {"displacements", "displacements_and_rotations"}, "displacements") !=
+      "displacements")
+    result.ties = coupling::Ties::displacements_and_rotations;
+  if (table.choice("solve", {"consistent", "lumped"}, "consistent") == "lumped") {
+    if (result.ties != coupling::Ties::displacements)
+      table.fail("solve", "lumped multipliers cannot tie rotations",
+                 "take solve = \"consistent\", or ties = \"displacements\"");
+    result.solve = coupling::MultiplierSolve::lumped;
+  }
+  result.relaxation_time = table.quantity("relaxation_time", Quantity::time, 0);
+  if (!(result.relaxation_time >= 0))
+    table.fail("relaxation_time", fmt::format("is {:g} s", result.relaxation_time),
+               "it must be 0 (a strict tie) or more");
+  result.interval = static_cast<int>(table.optional_integer("interval", 1, 10'000).value_or(0));
+}
+
+}  // namespace
+
+Surroundings read_surroundings(const TomlTable& root, const Vec3& size,
+                               std::vector<std::filesystem::path>& inputs) {
+  const TomlTable zone = need(root, "zone"), mesh = need(root, "mesh");
+  zone.allow_only({"low", "high", "centre", "size", "layers", "overlap"});
+  mesh.allow_only({"elements", "file", "unit", "young_modulus", "poisson_ratio"});
+  Surroundings result;
+  read_zone(zone, size, result);
+  if (mesh.has("elements") == mesh.has("file"))
+    mesh.fail(mesh.has("file") ? "file" : "elements",
+              mesh.has("file") ? "stands beside elements" : "the key is missing",
+              "a mesh is either structured, as in elements = [38, 30, 4], or comes from a file = \"slab.msh\"");
+  if (mesh.has("file")) {
+    read_mesh_file(zone, mesh, size, result, inputs);
+  } else {
+    if (mesh.has("unit")) mesh.fail("unit", "is that of a mesh file", "leave it out beside elements");
+    read_structured(zone, mesh, size, result);
+  }
+  if (mesh.has("young_modulus")) result.young_modulus = read_positive(mesh, "young_modulus", Quantity::stress);
+  if (mesh.has("poisson_ratio"))
+    result.poisson_ratio = read_number(
+        mesh, "poisson_ratio", 0, [](double nu) { return nu > -1 && nu < 0.5; }, "above -1 to below 0.5");
+  if (const auto coupling = root.optional_table("coupling")) read_coupling(*coupling, result);
+  return result;
+}
+
+}  // namespace impact
