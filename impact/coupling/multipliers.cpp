@@ -53,7 +53,7 @@ Multipliers::Multipliers(const KinematicMap& map, const DiscreteMasses& masses, 
     throw dem::InputError("coupling",
                           fmt::format("masses of {} elements for {} ties", masses.row.size(), count),
                           "one row for each tied element");
-  for (dem::Column<Row>* column : {&element_mass, &element_inertia, &violation}) column->resize(count);
+  for (dem::Column<Row>* column : {&element_mass, &element_inertia}) column->resize(count);
   for (dem::Column<Row>* column : {&node_mass, &node_velocity, &node_change}) column->resize(node_count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -141,7 +141,7 @@ void Multipliers::lump() {
   multiply(ties.k.transpose(), one, share, 1);
   divide_by_mass(share, node_mass);
   multiply(ties.k, share, sum, 1);
-  own.resize(ties.elements.size()), lumped.resize(ties.elements.size());
+  own.resize(ties.elements.size()), lumped.resize(ties.elements.size()), violation.resize(ties.elements.size());
   for (std::size_t i = 0; i < one.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const double mass = element_mass[i].value[c];
@@ -229,8 +229,8 @@ TieSums Multipliers::apply(DiscreteVelocities discrete, fe::State& nodes, double
   pass.nodes = node_velocity.front().value;
   pass.velocity = discrete.first, pass.stride = discrete.stride;
   pass.mass = element_mass.front().value, pass.factor = (lumped.empty() ? element_mass : lumped).front().value;
-  pass.violation = violation.front().value, pass.cell_impulse = cell_impulse.front().value;
-  if (!own.empty()) pass.own = own.front().value;
+  pass.cell_impulse = cell_impulse.front().value;
+  if (!own.empty()) pass.own = own.front().value, pass.violation = violation.front().value;
   pass.part = part;
   const std::size_t cells = ties.cell_first.size() - 1;
   const auto for_each_block = [&](void (*loop)(CellPass&)) {
@@ -248,7 +248,8 @@ TieSums Multipliers::apply(DiscreteVelocities discrete, fe::State& nodes, double
     solve_nodes_with_spins(discrete);
   else
     solve_nodes();
-  pass.nodes = node_change.front().value;
+  for (std::size_t j = 0; j < node_velocity.size(); ++j)
+    for (std::size_t c = 0; c < 3; ++c) node_velocity[j].value[c] += node_change[j].value[c];
   for_each_block(row_loops().correct);
 
   TieSums sums;

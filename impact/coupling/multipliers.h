@@ -84,7 +84,8 @@ class Multipliers {
   // Rows of four: three axes and one unused, so that a row is one vector.
   dem::Column<Row> element_mass, element_inertia, node_mass;  ///< 0 where not tied or locked [kg, kg m2]
   dem::Column<Row> lumped, own;  ///< see CellPass::factor, own; empty unless lumped
-  dem::Column<Row> violation, cell_impulse, spin_change;
+  dem::Column<Row> violation;    ///< by element, when lumped
+  dem::Column<Row> cell_impulse, spin_change;
   dem::Column<Row> node_velocity, node_change;  ///< u; q
   dem::Column<Row> work;
   std::vector<CellPass> passes;                      ///< blocks of cells, summed in their order

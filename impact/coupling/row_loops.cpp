@@ -65,7 +65,7 @@ void find_violation(CellPass& pass) {
       const double* shape = pass.shape + 8 * i;
       const Four violation = load_four(v) - field(nodes, shape);
       const Four impulse = load_four(pass.factor + 4 * i) * violation;
-      store_four(pass.violation + 4 * i, violation);
+      if (pass.violation != nullptr) store_four(pass.violation + 4 * i, violation);
       for (int a = 0; a < 8; ++a) sum.row[a] += shape[a] * impulse;
     }
     for (std::size_t a = 0; a < 8; ++a) store_four(pass.cell_impulse + 32 * cell + 4 * a, sum.row[a]);
@@ -81,10 +81,10 @@ void correct_velocities(CellPass& pass) {
     for (auto i = static_cast<std::size_t>(pass.cell_first[cell]);
          i < static_cast<std::size_t>(pass.cell_first[cell + 1]); ++i) {
       double* v = pass.velocity + pass.stride * static_cast<std::size_t>(pass.element[i]);
-      const Four violation = load_four(pass.violation + 4 * i);
-      const Four change = pass.own != nullptr ? -load_four(pass.own + 4 * i) * violation
-                                              : field(nodes, pass.shape + 8 * i) - violation;
       const Four mass = load_four(pass.mass + 4 * i), before = load_four(v);
+      // k q - r = k (u + q) - v: the nodes' new velocities say it all.
+      const Four change = pass.own != nullptr ? -load_four(pass.own + 4 * i) * load_four(pass.violation + 4 * i)
+                                              : field(nodes, pass.shape + 8 * i) - before;
       const Four after = before + (mass > zero ? pass.part * change : zero);
       energy += mass * (after * after - before * before);
       for (int c = 0; c < 3; ++c) v[c] = after[c];

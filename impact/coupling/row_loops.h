@@ -12,15 +12,15 @@ struct CellPass {
   const std::int32_t* cell_first;
   const std::int32_t* cell_nodes;
   const double* shape;
-  const double* nodes;          ///< the nodes' velocities u, then their change q
+  const double* nodes;          ///< the nodes' velocities, before and after
   const std::int32_t* element;  ///< numbers of the tied elements
   double* velocity;             ///< of element i at velocity + stride * i
   std::size_t stride;
   const double* mass;    ///< by tied element and axis; 0 where not tied
   const double* factor;  ///< what makes an impulse of the violation, by tied element and axis
-  double* violation;     ///< r = v - k u, by tied element
+  double* violation;     ///< r = v - k u, by tied element; null: not kept
   double* cell_impulse;  ///< k^T factor r of each cell, eight rows a cell
-  const double* own;     ///< null: velocities change by k q - r; else by -own r, by tied element and axis
+  const double* own;     ///< null: velocities become k u; else they lose own r, by tied element and axis
   double part;           ///< of the change that is made, 1/p
   std::size_t begin, end;
   double energy_change;      ///< out: twice that of the kinetic energy [J]
@@ -34,7 +34,7 @@ struct RowLoops {
   /// x = (L L^T)^-1 x; L column by column below its diagonal.
   void (*solve)(const std::int32_t* first, const std::int32_t* row, const double* value,
                 const double* inverse_diagonal, std::size_t size, double* x);
-  /// Fills violation and cell_impulse.
+  /// Fills cell_impulse, and violation where it is kept.
   void (*violation)(CellPass&);
   /// Changes the velocities.
   void (*correct)(CellPass&);
