@@ -141,7 +141,7 @@ Surroundings read_surroundings(const TomlTable& root, const Vec3& size,
                                std::vector<std::filesystem::path>& inputs) {
   const TomlTable zone = need(root, "zone"), mesh = need(root, "mesh");
   zone.allow_only({"low", "high", "centre", "size", "layers", "overlap"});
-  mesh.allow_only({"elements", "file", "unit", "young_modulus", "poisson_ratio"});
+  mesh.allow_only({"elements", "file", "unit", "young_modulus", "poisson_ratio", "modulus"});
   Surroundings result;
   read_zone(zone, size, result);
   if (mesh.has("elements") == mesh.has("file"))
@@ -154,6 +154,12 @@ Surroundings read_surroundings(const TomlTable& root, const Vec3& size,
     if (mesh.has("unit")) mesh.fail("unit", "is that of a mesh file", "leave it out beside elements");
     read_structured(zone, mesh, size, result);
   }
+  const std::string modulus = mesh.choice("modulus", {"flexural", "membrane", "bulk"}, "flexural");
+  result.modulus = modulus == "flexural"   ? PackModulus::flexural
+                   : modulus == "membrane" ? PackModulus::membrane
+                                           : PackModulus::bulk;
+  if (mesh.has("young_modulus") && mesh.has("modulus"))
+    mesh.fail("modulus", "says which modulus is measured, and young_modulus is given", "leave one of both out");
   if (mesh.has("young_modulus")) result.young_modulus = read_positive(mesh, "young_modulus", Quantity::stress);
   if (mesh.has("poisson_ratio"))
     result.poisson_ratio = read_number(

@@ -125,6 +125,7 @@ TEST_F(SceneFile, GivesWhatItSays) {
   EXPECT_EQ(around.box.zone->overlap_layers, 3);
   EXPECT_NEAR(around.overlap, 0.15, 1e-15);
   EXPECT_FALSE(around.young_modulus.has_value()) << "measured";
+  EXPECT_EQ(around.modulus, impact::PackModulus::flexural);
   EXPECT_EQ(around.interval, 2);
   EXPECT_EQ(around.ties, coupling::Ties::displacements);
   // The zone's share by volume: 0.6 of the slab.
@@ -223,6 +224,8 @@ TEST_F(SceneFile, ReadsAMeshAndASpecimen) {
   EXPECT_EQ(meshed.surroundings->overlap, 0.1);
   EXPECT_EQ(meshed.surroundings->young_modulus, 38e9);
   EXPECT_THAT(meshed.inputs, ElementsAre(folder / "case.toml", folder / "card.toml", folder / "slab.msh"));
+  EXPECT_EQ(read(edited("[20, 10, 4]", "[20, 10, 4]\nmodulus = \"membrane\"")).surroundings->modulus,
+            impact::PackModulus::membrane);
   const Scene packed = read(edited("elements = 12000\nseed = 7", "specimen = \"zone.h5\""));
   EXPECT_EQ(packed.structure.specimen, folder / "zone.h5");
   EXPECT_EQ(packed.structure.packing.elements, 2u);

@@ -151,6 +151,11 @@ inline std::vector<Refusal> refusals() {
        "case.toml:17: mesh.unit: is that of a mesh file; leave it out beside elements"},
       {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nyoung_modulus = \"0 GPa\"",
        "case.toml:17: mesh.young_modulus: is 0 Pa; it must be above 0"},
+      {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nmodulus = \"shear\"",
+       "case.toml:17: mesh.modulus: \"shear\" is no choice here; allowed: flexural, membrane, bulk"},
+      {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nyoung_modulus = \"30 GPa\"\nmodulus = \"bulk\"",
+       "case.toml:18: mesh.modulus: says which modulus is measured, and young_modulus is given; leave one of "
+       "both out"},
       {"elements = [20, 10, 4]", "elements = [20, 10, 4]\npoisson_ratio = 0.5",
        "case.toml:17: mesh.poisson_ratio: is 0.5; allowed: above -1 to below 0.5"},
       {"elements = [20, 10, 4]", "file = \"slab.msh\"\nunit = \"mm\"",
