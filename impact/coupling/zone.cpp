@@ -28,7 +28,7 @@ void Zone::validate() const {
     throw dem::InputError(where, fmt::format("the least weight is {:g}", least_weight),
                           "it must lie between 0 and 0.5, both excluded: masses must not vanish");
   for (int k = 0; k < 3; ++k) {
-    const auto face = static_cast<std::size_t>(2 * k);
+    const std::size_t face = 2 * static_cast<std::size_t>(k);
     const double taken = thickness * (static_cast<int>(coupled[face]) + static_cast<int>(coupled[face + 1]));
     if (taken >= 2 * half_size[k])
       throw dem::InputError(where,
@@ -42,7 +42,7 @@ double Zone::overlap_coordinate(const Vec3& point) const {
   const Vec3 local = axes.transpose() * (point - centre);
   double depth = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const auto face = static_cast<std::size_t>(2 * k);
+    const std::size_t face = 2 * static_cast<std::size_t>(k);
     if (coupled[face]) depth = std::min(depth, half_size[k] + local[k]);
     if (coupled[face + 1]) depth = std::min(depth, half_size[k] - local[k]);
   }
