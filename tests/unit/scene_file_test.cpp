@@ -281,6 +281,9 @@ TEST(SceneCases, AreSound) {
     EXPECT_EQ(whole.supports[k].high, coupled.supports[k].high);
   const Scene small = impact::read_scene(cases / "slab-small.toml");
   EXPECT_EQ(small.structure.packing.elements, 1920u);
+  const Scene bar = impact::read_scene(cases / "bar-wave.toml");
+  EXPECT_EQ(bar.approach.direction, Vec3::UnitX());
+  EXPECT_NEAR(bar.surroundings->overlap, 0.15, 1e-15);
   EXPECT_EQ(dem::read_card(fs::path(SPALL_SOURCE_DIR) / "data/cards/paper-slab-co-3.6.toml").cohesion, 3.6e6);
 }
 
