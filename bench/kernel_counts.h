@@ -6,14 +6,14 @@
 namespace bench::counts {
 
 // A link, every step. Read: its partner's number (4), 1/D_init (8), the largest strain (8), the shear force
-// (24). Written back: the largest strain (8) and the shear force (24). S_int and the stiffnesses follow from
-// the radii.
-inline constexpr double link_bytes = 44 + 32;
+// (24). Written back: the shear force (24); the largest strain only where it softens. S_int and the stiffnesses
+// follow from the radii.
+inline constexpr double link_bytes = 44 + 24;
 
 // An element, every step. Read and written once each, whatever the number of its links: ten kinematic numbers
-// (80 + 80), the accumulated rotation (24 + 24). Read: masses and what is prescribed (64). Written: the
-// resultant (64).
-inline constexpr double element_bytes = 160 + 48 + 64 + 64;
+// (80 + 80), the accumulated rotation (24 + 24). Read: masses and what is prescribed (33). The
+// resultant is written only where a degree of freedom is prescribed.
+inline constexpr double element_bytes = 160 + 48 + 33;
 
 // Additions, multiplications, comparisons, divisions and roots, each as one, of a link that neither softens nor
 // slides: kinematics of the pair 80 (pair_kinematics.h), law 67 (cohesive_link.h), sums on both elements 18.
@@ -29,10 +29,10 @@ inline double operations_per_link(std::size_t elements, std::size_t links) {
 }
 
 // What a run must hold in memory for a link at the least: the bytes that a step reads or rewrites of it (44),
-// and its share of the elements: kinematics (80), rotation (24), masses (64), resultant (64), place and radius
+// and its share of the elements: kinematics (80), rotation (24), masses (33), resultant (64), place and radius
 // at rest (32).
 inline double resident_per_link(std::size_t elements, std::size_t links) {
-  return 44 + (80 + 24 + 64 + 64 + 32) * static_cast<double>(elements) / static_cast<double>(links);
+  return 44 + (80 + 24 + 33 + 64 + 32) * static_cast<double>(elements) / static_cast<double>(links);
 }
 
 }  // namespace bench::counts

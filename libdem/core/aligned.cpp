@@ -21,7 +21,8 @@ std::align_val_t alignment_for(std::size_t bytes) {
 void* allocate_aligned(std::size_t bytes) {
   void* memory = ::operator new(bytes, alignment_for(bytes));
 #ifdef __linux__
-  if (bytes >= huge_page) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: small pages do as well
+  // A wish, small pages do as well; and for whole huge pages only, so that the last one is not rounded up.
+  if (bytes >= huge_page) madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
   return memory;
 }

@@ -16,6 +16,13 @@ void Links::push(std::int32_t first, std::int32_t second, double initial_distanc
   ++count;
 }
 
+void Links::reserve(std::size_t pairs) {
+  const std::size_t padded = (pairs + link_padding - 1) / link_padding * link_padding;
+  for (Column<std::int32_t>* column : {&a, &b}) column->reserve(padded);
+  for (Column<double>* column : {&inverse_initial_distance, &area, &max_strain, &shear_x, &shear_y, &shear_z})
+    column->reserve(padded);
+}
+
 void Links::pad(std::int32_t ghost) {
   const std::size_t real = count;
   while (a.size() % link_padding != 0) push(ghost, ghost + 1, 1, 0);
@@ -26,6 +33,7 @@ void Links::clear() { *this = Links{}; }
 
 Links make_links(std::span<const LinkGeometry> pairs, std::span<const double> radii) {
   Links links;
+  links.reserve(pairs.size());
   for (const LinkGeometry& pair : pairs) {
     const double r = std::min(radii[static_cast<std::size_t>(pair.a)], radii[static_cast<std::size_t>(pair.b)]);
     links.push(pair.a, pair.b, pair.initial_distance, std::numbers::pi * r * r);

@@ -36,6 +36,8 @@ struct Links {
   /// Appends a pair at rest.
   void push(std::int32_t first, std::int32_t second, double initial_distance, double interaction_area,
             double initial_max_strain = 0);
+  /// Makes room for so many pairs and the padding, so that pushing them leaves no holes in memory.
+  void reserve(std::size_t pairs);
   /// Adds the padding; `ghost` is the number of the first ghost element. Call once after the last push.
   void pad(std::int32_t ghost);
   void clear();
