@@ -83,9 +83,7 @@ int calibrate_case(const CalibrateOptions& options, const Invocation& invocation
   } catch (const dem::InputError& error) {
     // Some packings show only once they are made that they are too small: the case is wrong all the same, and
     // leaves nothing behind.
-    std::error_code ignored;
-    if (!was_there && std::filesystem::is_empty(options.output, ignored))
-      std::filesystem::remove(options.output, ignored);
+    if (!was_there) remove_if_empty(options.output);
     throw dem::InputError(options.file, error.what(), "");
   }
 }

@@ -1,6 +1,9 @@
 #include "app/output.h"
 
+#include <algorithm>
+#include <cctype>
 #include <ctime>
+#include <string_view>
 
 #include "app/machine.h"
 #include "app/version.h"
@@ -16,6 +19,27 @@ std::string utc_now() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
+}
+
+std::string command_to_go_on(const Invocation& invocation) {
+  std::string command;
+  for (const std::string& word : invocation.arguments) {
+    if (word == "--resume") continue;
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
+      return std::isalnum(letter) != 0 ||
+             std::string_view("_-+=./,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    });
+    std::string quoted = word;
+    for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4)
+      quoted.replace(at, 1, "'\\''");
+    command += plain ? word + " " : "'" + quoted + "' ";
+  }
+  return command + "--resume";
+}
+
+void remove_if_empty(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::is_empty(folder, ignored)) std::filesystem::remove(folder, ignored);
 }
 
 RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)

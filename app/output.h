@@ -13,6 +13,12 @@ namespace app {
 /// The present time as ISO 8601 in UTC: "2026-01-31T09:15:02Z".
 std::string utc_now();
 
+/// The command that goes on with a stopped run: what was typed, quoted for a shell, with --resume.
+std::string command_to_go_on(const Invocation& invocation);
+
+/// Takes back a folder that a refused run has made; leaves one alone that holds something.
+void remove_if_empty(const std::filesystem::path& folder);
+
 /// The output folder of one run.
 class RunFolder {
  public:

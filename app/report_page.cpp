@@ -7,6 +7,7 @@
 
 #include "app/calibration_page.h"
 #include "app/curve_table.h"
+#include "app/impact_page.h"
 #include "app/report_words.h"
 #include "app/test_page.h"
 #include "libdem/core/error.h"
@@ -89,6 +90,9 @@ void write_report(const std::filesystem::path& folder) {
       page.subtitle = name;
     } else if (result.contains("card") && result.contains("targets")) {
       page = calibration_page(result, curves);
+    } else if (result.contains("model") && result.contains("max_displacement")) {
+      page = impact_page(result, curves);
+      page.subtitle = name;
     } else {
       page = plain_page(result, curves);
       page.subtitle = name;

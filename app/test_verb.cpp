@@ -1,10 +1,6 @@
 // spall test elastic | tension | compression
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <string_view>
-
 #include "app/console.h"
 #include "app/output.h"
 #include "app/report_page.h"
@@ -123,23 +119,6 @@ Json result_of(const virtual_tests::UniaxialResult& found, const virtual_tests::
   result["unbalanced_force_ratio"] = found.unbalanced_force_ratio;
   result["state_sha256"] = found.state_sha256;
   return result;
-}
-
-/// The command that goes on: what was typed, quoted for a shell, with --resume.
-std::string command_to_go_on(const Invocation& invocation) {
-  std::string command;
-  for (const std::string& word : invocation.arguments) {
-    if (word == "--resume") continue;
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
-      return std::isalnum(letter) != 0 ||
-             std::string_view("_-+=./,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
-    });
-    std::string quoted = word;
-    for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4)
-      quoted.replace(at, 1, "'\\''");
-    command += plain ? word + " " : "'" + quoted + "' ";
-  }
-  return command + "--resume";
 }
 
 /// Runs it from the checkpoint if that is wanted; a stop leaves a checkpoint and says how to go on.

@@ -8,6 +8,7 @@ namespace app {
 void add_specimen(CLI::App& root, Invocation& invocation);
 void add_test(CLI::App& root, Invocation& invocation);
 void add_calibrate(CLI::App& root, Invocation& invocation);
+void add_impact(CLI::App& root, Invocation& invocation);
 void add_card(CLI::App& root, Invocation& invocation);
 void add_report(CLI::App& root, Invocation& invocation);
 
