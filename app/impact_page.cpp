@@ -76,8 +76,12 @@ report::Section results_section(const Json& result) {
     for (auto& row : rows_of(result, {"peak_force", "impulse", "residual_velocity"}).rows)
       rows.rows.push_back(std::move(row));
     rows.rows.emplace_back("The impactor at the end", text(impactor, "passage"));
-    rows.rows.emplace_back("Its foremost point behind the front face",
-                           millimetres(number(impactor, "nose_depth")));
+    const double depth = number(impactor, "nose_depth");
+    rows.rows.emplace_back(
+        "Its foremost point at the end",
+        millimetres(std::abs(depth)) + (depth < 0 ? " before the front face" : " behind the front face"));
+    rows.rows.emplace_back("Its foremost point, at the deepest",
+                           millimetres(number(impactor, "largest_nose_depth")));
   }
   for (const auto& [probe, value] : object_of(result, "max_displacement").items())
     if (value.is_number())
@@ -114,7 +118,7 @@ report::Section formulas_section(const Json& result) {
   table.columns = {"formula", "quantity", "formula's value", "says", "this run", "in its range"};
   table.rows.push_back({"modified NDRC", "depth into a thick wall",
                         millimetres(number(ndrc, "penetration_depth")), "",
-                        millimetres(number(object_of(result, "impactor"), "nose_depth")) + " at the end", ""});
+                        millimetres(number(object_of(result, "impactor"), "largest_nose_depth")), ""});
   table.rows.push_back(
       {"modified NDRC", "wall that is just perforated", millimetres(number(ndrc, "perforation_thickness")),
        "perforated: " + yes(ndrc, "perforates"), perforated, yes(ndrc, "perforation_in_range")});
@@ -167,11 +171,10 @@ report::Section energy_section(const Json& result) {
     if (const double value = number(energy, key); std::isfinite(value) && value != 0) add(words, value);
   add("sum", number(energy, "final"));
   add("at the start", initial);
-  report::KeyValues errors;
-  errors.rows.emplace_back("Largest error of the balance over the run",
-                           with_unit(100 * number(energy, "balance_error"), "%", 3));
-  errors.rows.emplace_back("Momentum of structure, impactor and supports' impulse, error",
-                           report::number_text(number(result, "momentum_error"), 3));
+  report::KeyValues errors{
+      {{"Largest error of the balance over the run", with_unit(100 * number(energy, "balance_error"), "%", 3)},
+       {"Momentum of structure, impactor and supports' impulse, error",
+        report::number_text(number(result, "momentum_error"), 3)}}};
   return {"Energy", {std::move(table), std::move(errors)}};
 }
 

@@ -133,11 +133,11 @@ void add_impact(CLI::App& root, Invocation& invocation) {
       root, "impact", "Let an impactor strike a structure of discrete elements, alone or tied to finite ones",
       "spall card example -o card.toml\n"
       "printf 'model = \"de\"\\ncard = \"card.toml\"\\n' > slab.toml\n"
-      "printf '[structure]\\nsize = \"0.3x0.3x0.06 m\"\\nelements = 2000\\n' >> slab.toml\n"
-      "printf '[[support]]\\nname = \"edge\"\\nlow = \"0,0,0 m\"\\nhigh = \"0.03,0.3,0.06 m\"\\n' >> "
+      "printf '[structure]\\nsize = \"0.24x0.24x0.08 m\"\\nelements = 2000\\n' >> slab.toml\n"
+      "printf '[[support]]\\nname = \"edge\"\\nlow = \"0,0,0 m\"\\nhigh = \"0.03,0.24,0.08 m\"\\n' >> "
       "slab.toml\n"
       "printf 'lock = [\"z\"]\\n[impactor]\\nshape = \"sphere\"\\ndiameter = \"40 mm\"\\n' >> slab.toml\n"
-      "printf 'density = \"7850 kg/m3\"\\nspeed = \"20 m/s\"\\naim = \"0.15,0.15,0.03 m\"\\n' >> slab.toml\n"
+      "printf 'density = \"7850 kg/m3\"\\nspeed = \"20 m/s\"\\naim = \"0.12,0.12,0.04 m\"\\n' >> slab.toml\n"
       "printf '[run]\\nduration = \"0.5 ms\"\\n' >> slab.toml\n"
       "spall impact slab.toml -o out/impact",
       options->common);

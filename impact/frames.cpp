@@ -17,7 +17,7 @@ namespace impact {
 namespace {
 
 constexpr std::array kinds = {"elements", "links", "finite_elements", "impactor"};
-/// Numbers of links compress to a fifth, at a speed that a run does not notice.
+/// The weakest: files shrink to less than half, at a speed that a run does not notice.
 constexpr int compression = 1;
 
 std::string file_name(const std::string& kind, int number) { return fmt::format("{}_{:04}.hdf", kind, number); }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "impact/missile.h"
@@ -96,11 +97,22 @@ Json formulas_of(const Scene& scene) {
   return formulas;
 }
 
-Json impactor_of(const ImpactResult& found) {
+/// How deep its foremost point has been, as far as the samples tell and if it did not turn on the way [m].
+double largest_nose_depth(const Scene& scene, const ImpactResult& found) {
+  double largest = found.impactor.nose_depth;
+  if (found.history.empty()) return largest;
+  const Vec3 inward = -struck_slab(scene).outward, end = found.history.back().impactor_position;
+  for (const Sample& sample : found.history)
+    largest = std::max(largest, found.impactor.nose_depth + (sample.impactor_position - end).dot(inward));
+  return largest;
+}
+
+Json impactor_of(const Scene& scene, const ImpactResult& found) {
   return {{"passage", name_of(found.impactor.passage)},
           {"perforated", found.impactor.perforated},
           {"clear", found.impactor.clear},
-          {"nose_depth", found.impactor.nose_depth}};
+          {"nose_depth", found.impactor.nose_depth},
+          {"largest_nose_depth", largest_nose_depth(scene, found)}};
 }
 
 }  // namespace
@@ -124,7 +136,7 @@ Json result_of(const Scene& scene, const ImpactResult& found, int threads) {
   result["impulse_vector"] = list_of(found.impulse);
   result["residual_velocity"] = found.residual_velocity;
   result["perforated"] = scene.impactor && found.impactor.perforated;
-  if (scene.impactor) result["impactor"] = impactor_of(found);
+  if (scene.impactor) result["impactor"] = impactor_of(scene, found);
   result["broken_links"] = found.broken_links;
   result["damage_volume"] = found.damage_volume;
   result["crater"] = loss_of(found.losses.crater);

@@ -30,7 +30,8 @@ TEST_P(Help, HasAnExampleThatWorksWhenPasted) {
 INSTANTIATE_TEST_SUITE_P(Verbs, Help,
                          testing::Values("specimen make", "specimen extract", "specimen inspect",
                                          "test elastic", "test tension", "test compression", "card show",
-                                         "card check", "card export", "card example", "report", "calibrate"),
+                                         "card check", "card export", "card example", "report", "calibrate",
+                                         "impact"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace(name.begin(), name.end(), ' ', '_');

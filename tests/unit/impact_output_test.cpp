@@ -108,6 +108,11 @@ TEST_F(ImpactOutput, ResultHasTheKeysThatUsersRelyOn) {
   found.impulse = {3, 0, 4};
   found.residual_velocity = -2;
   found.impactor.passage = impact::Passage::rebounded;
+  found.impactor.nose_depth = -0.01;
+  found.history.resize(3);
+  found.history[0].impactor_position.z() = 0.43;
+  found.history[1].impactor_position.z() = 0.40;  // the deepest
+  found.history[2].impactor_position.z() = 0.44;
   found.energy = {100, 1, 2, 4, 8, 16, 32, 0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625};
   found.energy_balance_error = std::numeric_limits<double>::quiet_NaN();
   found.warnings = {"damage reaches the overlap"};
@@ -153,6 +158,7 @@ TEST_F(ImpactOutput, ResultHasTheKeysThatUsersRelyOn) {
   EXPECT_EQ(result["energy"]["initial"], 100);
   EXPECT_EQ(result["energy"]["final"], 63.984375);
   EXPECT_EQ(result["impactor"]["passage"], "rebounded");
+  EXPECT_NEAR(result["impactor"]["largest_nose_depth"].get<double>(), 0.03, 1e-12);
   EXPECT_EQ(result["perforated"], false);
   EXPECT_EQ(result["scab"]["volume"], 0.01);
   EXPECT_EQ(result["fragments"]["detached"], 2);
