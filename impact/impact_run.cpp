@@ -174,6 +174,7 @@ void take_sample(Run& run) {
   sample.impactor_position = run.impactor.motion.position;
   sample.impactor_velocity = run.impactor.motion.velocity;
   sample.broken_links = record.broken_links;
+  sample.energy = record.energy;
   record.history.push_back(std::move(sample));
 }
 

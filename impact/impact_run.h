@@ -41,7 +41,7 @@ struct Sample {
   Vec3 force = Vec3::Zero();       ///< of the structure on the impactor, mean since the last sample [N]
   Vec3 impactor_position = Vec3::Zero(), impactor_velocity = Vec3::Zero();
   std::size_t broken_links = 0;  ///< when they were last counted
-  ImpactEnergy energy;           ///< at that time; all zero if it was not taken then
+  ImpactEnergy energy;           ///< as it was last taken
 };
 
 /// The state as it is now, for pictures; valid during the call.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <span>
+
 #include "libdem/core/error.h"
 #include "libdem/probe/energy.h"
 #include "libdem/run/checkpoint.h"
@@ -23,8 +26,19 @@ double kinetic_of_elements(const dem::Particles& particles, const dem::Column<de
   return energy;
 }
 
-/// The numbers of a sample in a row: time, force, impactor's place and velocity, broken links, probes.
-constexpr std::size_t fixed_columns = 11;
+/// The numbers of a sample in a row: time, force, impactor's place and velocity, broken links, energies,
+/// probes.
+constexpr std::size_t energy_columns = 13, fixed_columns = 11 + energy_columns;
+
+std::array<double, energy_columns> row_of(const ImpactEnergy& e) {
+  return {e.initial,         e.elements,        e.impactor,  e.nodes,   e.elastic,
+          e.finite_elastic,  e.contact,         e.softening, e.sliding, e.damping,
+          e.contact_sliding, e.contact_damping, e.ties};
+}
+
+ImpactEnergy energy_from(std::span<const double> e) {
+  return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9], e[10], e[11], e[12]};
+}
 
 }  // namespace
 
@@ -89,12 +103,12 @@ dem::NamedNumbers numbers_of(const RunRecord& record, std::size_t probes) {
     rows.push_back(sample.time);
     put(rows, sample.force), put(rows, sample.impactor_position), put(rows, sample.impactor_velocity);
     rows.push_back(static_cast<double>(sample.broken_links));
+    const auto parts = row_of(sample.energy);
+    rows.insert(rows.end(), parts.begin(), parts.end());
     for (const Vec3& displacement : sample.displacement) put(rows, displacement);
   }
-  const ImpactEnergy& e = record.energy;
-  numbers["energy"] = {e.initial,         e.elements,        e.impactor,  e.nodes,   e.elastic,
-                       e.finite_elastic,  e.contact,         e.softening, e.sliding, e.damping,
-                       e.contact_sliding, e.contact_damping, e.ties};
+  const auto energy = row_of(record.energy);
+  numbers["energy"].assign(energy.begin(), energy.end());
   std::vector<double>& rest = numbers["record"];
   rest = {static_cast<double>(record.steps),
           record.worst_imbalance,
@@ -134,12 +148,12 @@ void set_from(RunRecord& record, const dem::NamedNumbers& numbers, std::size_t p
     sample.impactor_position = three(rows, at + 4);
     sample.impactor_velocity = three(rows, at + 7);
     sample.broken_links = static_cast<std::size_t>(rows[at + 10]);
+    sample.energy = energy_from(std::span(rows).subspan(at + 11, energy_columns));
     for (std::size_t p = 0; p < probes; ++p)
       sample.displacement.push_back(three(rows, at + fixed_columns + 3 * p));
     record.history.push_back(std::move(sample));
   }
-  const std::vector<double>& e = column("energy", 13);
-  record.energy = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9], e[10], e[11], e[12]};
+  record.energy = energy_from(column("energy", energy_columns));
   const std::vector<double>& rest = column("record", 20);
   record.steps = static_cast<std::int64_t>(rest[0]);
   record.worst_imbalance = rest[1], record.worst_momentum = rest[2], record.farthest_damage = rest[3];
