@@ -295,7 +295,8 @@ void yade(const Machine&, const Wishes& wishes, std::vector<Row>& rows) {
     return;
   }
   const std::map<std::size_t, double> goals{{medium.elements, 30}, {large.elements, 25}};
-  for (const auto& one : nlohmann::json::parse(stream).at("sizes")) {
+  const nlohmann::json measured = nlohmann::json::parse(stream);
+  for (const auto& one : measured.at("sizes")) {
     const auto elements = one.at("elements").get<std::size_t>();
     if (!goals.contains(elements)) continue;
     rows.push_back(row_of("yade", "against Yade CpmMat, one core, " + counted(elements) + " elements", "times",
