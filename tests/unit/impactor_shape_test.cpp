@@ -11,22 +11,15 @@
 
 #include "impact/impactors/impactor.h"
 #include "libdem/core/error.h"
+#include "tests/message_of.h"
 #include "tests/verification/impactor_scene.h"
 
 using impact::Shape;
 using impact::Vec3;
+using test::message_of;
 using testing::HasSubstr;
 
 namespace {
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const dem::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void expect_nearest(const Shape& shape, const Vec3& point, double distance, const Vec3& normal) {
   const impact::Nearest found = impact::nearest(shape, point);

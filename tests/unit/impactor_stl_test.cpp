@@ -11,25 +11,18 @@
 #include "impact/impactors/shape.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "tests/message_of.h"
 #include "tests/verification/impactor_scene.h"
 
 using impactor_scene::binary_stl;
 using impactor_scene::box_surface;
 using impactor_scene::Surface;
 using impactor_scene::text_stl;
+using test::message_of;
 using testing::HasSubstr;
 using Vec3 = dem::Vec3;
 
 namespace {
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const dem::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::string refusal(const std::string& bytes, double unit = 1) {
   return message_of([&] { impact::parse_stl(bytes, "rock.stl", unit); });

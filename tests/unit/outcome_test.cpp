@@ -12,20 +12,13 @@
 #include "impact/outcome/slab_damage.h"
 #include "libdem/core/error.h"
 #include "libdem/core/random.h"
+#include "tests/message_of.h"
 
 using impact::Vec3;
+using test::message_of;
 using testing::HasSubstr;
 
 namespace {
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const dem::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 /// Elements and links that own their columns.
 struct Pack {
