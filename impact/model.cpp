@@ -13,6 +13,7 @@
 #include "impact/fe/gmsh_mesh.h"
 #include "libdem/core/error.h"
 #include "libdem/motion/critical_step.h"
+#include "specimens/extract.h"
 #include "specimens/interaction_range.h"
 #include "specimens/packing.h"
 #include "specimens/representative.h"
@@ -25,14 +26,27 @@ bool inside(const Vec3& point, const Vec3& low, const Vec3& high) {
   return (point.array() >= low.array() - 1e-9).all() && (point.array() <= high.array() + 1e-9).all();
 }
 
+/// The structure or the zone, packed and linked or read.
 specimens::Specimen make_specimen(const Scene& scene, int threads, const dem::ProgressCallback& progress) {
-  if (scene.structure.specimen) return specimens::read_specimen(*scene.structure.specimen);
-  specimens::PackingOptions packing = scene.structure.packing;
-  packing.threads = threads;
-  packing.validate();
-  specimens::Specimen specimen = specimens::pack(packing, progress);
-  if (progress) progress({"linking", 0, 0, "links", ""});
-  specimens::link(specimen, threads);
+  const bool cut = scene.surroundings && scene.surroundings->cut_from_whole;
+  specimens::Specimen specimen;
+  if (scene.structure.specimen) {
+    specimen = specimens::read_specimen(*scene.structure.specimen);
+  } else {
+    specimens::PackingOptions packing = scene.structure.packing;
+    packing.threads = threads;
+    packing.validate();
+    specimen = specimens::pack(packing, progress);
+  }
+  if (cut) {
+    const Surroundings& around = *scene.surroundings;
+    specimen = specimens::cut_out(specimen, specimens::Shape::box, 0.5 * (around.zone_low + around.zone_high),
+                                  around.zone_high - around.zone_low);
+  }
+  if (cut || !scene.structure.specimen) {
+    if (progress) progress({"linking", 0, 0, "links", ""});
+    specimens::link(specimen, threads);
+  }
   return specimen;
 }
 

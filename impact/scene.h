@@ -48,7 +48,7 @@ struct Approach {
 /// The structure is a box [0, size]. Its discrete elements are packed, or come from a specimen file.
 struct Structure {
   std::optional<std::filesystem::path> specimen;  ///< HDF5; else packed:
-  specimens::PackingOptions packing;              ///< of the whole box (de) or of the zone alone (coupled)
+  specimens::PackingOptions packing;  ///< of the whole box, or, coupled and not cut from it, of the zone alone
 };
 
 /// Which modulus of the pack the finite elements get, see coupling::PackModuli: that by which the structure
@@ -62,6 +62,8 @@ struct Surroundings {
   fe::BoxMeshOptions box;                                  ///< the whole structure, with the zone cut out
   Vec3 zone_low = Vec3::Zero(), zone_high = Vec3::Zero();  ///< that discrete elements fill [m]
   double overlap = 0;                                      ///< thickness [m]
+  /// The zone's elements are those that the whole structure has there, packed or read as for Model::de.
+  bool cut_from_whole = false;
   /// E and nu of the finite elements; empty: measured on the pack, E as `modulus` says.
   std::optional<double> young_modulus, poisson_ratio;
   PackModulus modulus = PackModulus::flexural;

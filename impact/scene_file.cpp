@@ -51,8 +51,8 @@ void require_enough_inside(const TomlTable& structure, const specimens::PackingO
         fmt::format("at least {} are needed, take more elements", specimens::least_internal_elements));
 }
 
-/// Elements of the whole structure or, in a coupled case, the zone's share of them by volume: an element has
-/// the same size in both models.
+/// Elements of the whole structure or, in a coupled case whose zone is packed by itself, the zone's share of
+/// them by volume: an element has the same size in both models.
 void read_packing(const TomlTable& structure, const Vec3& size, Scene& scene) {
   specimens::PackingOptions& packing = scene.structure.packing;
   packing.size = size;
@@ -64,6 +64,9 @@ void read_packing(const TomlTable& structure, const Vec3& size, Scene& scene) {
   if (const auto ratio = structure.optional_number("size_ratio")) packing.grading.size_ratio = *ratio;
   told_about(structure, "size_ratio", [&] { packing.grading.validate(); });
   require_enough_inside(structure, packing);
+  if (!scene.surroundings || !scene.surroundings->cut_from_whole) return;
+  packing.size = scene.size;
+  packing.elements = static_cast<std::size_t>(whole);
 }
 
 void read_specimen_file(const TomlTable& structure, const Vec3& size, Scene& scene) {
@@ -76,13 +79,21 @@ void read_specimen_file(const TomlTable& structure, const Vec3& size, Scene& sce
   const specimens::Specimen specimen =
       told_about(structure, "specimen", [&] { return specimens::read_specimen(file); });
   const bool zone = scene.model == Model::coupled;
-  if (specimen.shape != specimens::Shape::box || !((specimen.size - size).norm() <= 1e-6 * size.norm()))
-    structure.fail("specimen",
-                   fmt::format("it is a {} of {:g} x {:g} x {:g} m", specimens::name_of(specimen.shape),
-                               specimen.size.x(), specimen.size.y(), specimen.size.z()),
-                   fmt::format("it must be a box of the {}, {:g} x {:g} x {:g} m{}",
-                               zone ? "zone's size" : "structure's size", size.x(), size.y(), size.z(),
-                               zone ? " (`spall specimen extract` cuts one out)" : ""));
+  const auto is_box_of = [&](const Vec3& wanted) {
+    return specimen.shape == specimens::Shape::box && (specimen.size - wanted).norm() <= 1e-6 * wanted.norm();
+  };
+  // A coupled case takes either: what is as large as the structure has the zone in it.
+  const bool whole = is_box_of(scene.size);
+  if (zone) scene.surroundings->cut_from_whole = whole;
+  if (!whole && !is_box_of(size))
+    structure.fail(
+        "specimen",
+        fmt::format("it is a {} of {:g} x {:g} x {:g} m", specimens::name_of(specimen.shape), specimen.size.x(),
+                    specimen.size.y(), specimen.size.z()),
+        fmt::format(
+            "it must be a box of the structure's size, {:g} x {:g} x {:g} m{}", scene.size.x(), scene.size.y(),
+            scene.size.z(),
+            zone ? fmt::format(", or of the zone's, {:g} x {:g} x {:g} m", size.x(), size.y(), size.z()) : ""));
   scene.structure.specimen = file;
   scene.structure.packing.size = specimen.size;
   scene.structure.packing.elements = specimen.elements();

@@ -13,6 +13,10 @@ namespace {
 using dem::Quantity;
 using dem::TomlTable;
 
+constexpr const char* one_kind_of_mesh =
+    "a mesh is even, as in elements = [38, 30, 4], or grows away from the zone, as in zone_elements = [16, 16, "
+    "4], or comes from a file = \"slab.msh\"";
+
 TomlTable need(const TomlTable& root, const char* name) {
   if (!root.has(name))
     root.fail(name, "the table is missing",
@@ -47,43 +51,83 @@ bool coupled_along(const Surroundings& s, const Vec3& size, int axis) {
   return s.zone_low[axis] > 0 || s.zone_high[axis] < size[axis];
 }
 
-/// The overlap has one thickness, so the layers must have about the same along all axes that are coupled.
-double thickness_of_layers(const TomlTable& mesh, const Surroundings& s, const Vec3& size) {
+/// The overlap has one thickness, so the layers must have about the same along all axes that are coupled. `key`
+/// is that which the sizes come from.
+double thickness_of_layers(const TomlTable& mesh, const char* key, const Vec3& element, const Surroundings& s,
+                           const Vec3& size) {
   double least = 0, most = 0;
   int least_axis = 0, most_axis = 0;
   for (int k = 0; k < 3; ++k) {
     if (!coupled_along(s, size, k)) continue;
-    const double element = size[k] / s.box.elements[static_cast<std::size_t>(k)];
-    if (least == 0 || element < least) least = element, least_axis = k;
-    if (element > most) most = element, most_axis = k;
+    if (least == 0 || element[k] < least) least = element[k], least_axis = k;
+    if (element[k] > most) most = element[k], most_axis = k;
   }
   if (most > 1.1 * least)
-    mesh.fail("elements",
+    mesh.fail(key,
               fmt::format("an element measures {:.4g} m along {} and {:.4g} m along {}", least,
                           axis_name[least_axis], most, axis_name[most_axis]),
               "across the zone's coupled faces they may differ by a tenth: the overlap has one thickness");
   return s.box.zone->overlap_layers * least;
 }
 
+std::array<int, 3> read_counts(const TomlTable& mesh, const char* key, const char* example) {
+  const std::vector<std::int64_t> counts = mesh.integers(key);
+  if (counts.size() != 3)
+    mesh.fail(key, fmt::format("has {} number{}, not three", counts.size(), counts.size() == 1 ? "" : "s"),
+              fmt::format("write it as in {} = {}", key, example));
+  std::array<int, 3> result{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (counts[k] < 1 || counts[k] > 10'000)
+      mesh.fail(key, fmt::format("{} along {}", counts[k], axis_name[k]), "allowed: 1 to 10000");
+    result[k] = static_cast<int>(counts[k]);
+  }
+  return result;
+}
+
+/// Elements of the box: everywhere the same, or small at the zone and larger away from it. Returns their size
+/// in the zone [m].
+Vec3 read_elements(const TomlTable& mesh, const Vec3& size, Surroundings& result) {
+  if (mesh.has("elements")) {
+    for (const char* key : {"growth", "largest"})
+      if (mesh.has(key))
+        mesh.fail(key, "elements that fill the structure evenly do not grow",
+                  "write zone_elements in place of elements, or leave this key out");
+    result.box.elements = read_counts(mesh, "elements", "[38, 30, 4]");
+    return size.cwiseQuotient(Vec3(result.box.elements[0], result.box.elements[1], result.box.elements[2]));
+  }
+  const std::array<int, 3> counts = read_counts(mesh, "zone_elements", "[16, 16, 4]");
+  fe::Grading grading;
+  if (mesh.has("growth"))
+    grading.growth = read_number(
+        mesh, "growth", grading.growth, [](double growth) { return growth >= 1 && growth <= 3; }, "1 to 3");
+  if (mesh.has("largest")) grading.largest = read_positive(mesh, "largest", Quantity::length);
+  Vec3 element;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    grading.zone_elements = counts[axis];
+    element[k] = (result.zone_high[k] - result.zone_low[k]) / counts[axis];
+    // The bound is for elements that are to grow: along an axis that the zone fills there are none.
+    fe::Grading here = grading;
+    if (!coupled_along(result, size, k)) here.largest = 0;
+    told_about(mesh, mesh.has("largest") ? "largest" : "zone_elements", [&] {
+      result.box.planes[axis] = fe::graded_planes(0, size[k], result.zone_low[k], result.zone_high[k], here);
+    });
+    result.box.elements[axis] = static_cast<int>(result.box.planes[axis].size()) - 1;
+  }
+  return element;
+}
+
 void read_structured(const TomlTable& zone, const TomlTable& mesh, const Vec3& size, Surroundings& result) {
   if (zone.has("overlap"))
     zone.fail("overlap", "is the thickness of an overlap with a mesh from a file",
               "a structured mesh counts its overlap in elements, as in layers = 3");
-  const std::vector<std::int64_t> elements = mesh.integers("elements");
-  if (elements.size() != 3)
-    mesh.fail("elements",
-              fmt::format("has {} number{}, not three", elements.size(), elements.size() == 1 ? "" : "s"),
-              "write it as in elements = [38, 30, 4]");
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (elements[k] < 1 || elements[k] > 10'000)
-      mesh.fail("elements", fmt::format("{} along {}", elements[k], axis_name[k]), "allowed: 1 to 10000");
-    result.box.elements[k] = static_cast<int>(elements[k]);
-  }
+  const char* key = mesh.has("elements") ? "elements" : "zone_elements";
+  const Vec3 element = read_elements(mesh, size, result);
   result.box.size = size;
   const auto layers = static_cast<int>(zone.optional_integer("layers", 1, 1000).value_or(3));
   result.box.zone = fe::DiscreteZone{result.zone_low, result.zone_high, layers};
-  told_about(mesh, "elements", [&] { result.box.validate(); });
-  result.overlap = thickness_of_layers(mesh, result, size);
+  told_about(mesh, key, [&] { result.box.validate(); });
+  result.overlap = thickness_of_layers(mesh, key, element, result, size);
 }
 
 void read_mesh_file(const TomlTable& zone, const TomlTable& mesh, const Vec3& size, Surroundings& result,
@@ -140,15 +184,24 @@ void read_coupling(const TomlTable& table, Surroundings& result) {
 Surroundings read_surroundings(const TomlTable& root, const Vec3& size,
                                std::vector<std::filesystem::path>& inputs) {
   const TomlTable zone = need(root, "zone"), mesh = need(root, "mesh");
-  zone.allow_only({"low", "high", "centre", "size", "layers", "overlap"});
-  mesh.allow_only({"elements", "file", "unit", "young_modulus", "poisson_ratio", "modulus"});
+  zone.allow_only({"low", "high", "centre", "size", "layers", "overlap", "cut_from_whole"});
+  mesh.allow_only({"elements", "zone_elements", "growth", "largest", "file", "unit", "young_modulus",
+                   "poisson_ratio", "modulus"});
   Surroundings result;
   read_zone(zone, size, result);
-  if (mesh.has("elements") == mesh.has("file"))
-    mesh.fail(mesh.has("file") ? "file" : "elements",
-              mesh.has("file") ? "stands beside elements" : "the key is missing",
-              "a mesh is either structured, as in elements = [38, 30, 4], or comes from a file = \"slab.msh\"");
+  result.cut_from_whole = zone.boolean("cut_from_whole", false);
+  constexpr std::array<const char*, 3> kinds = {"elements", "zone_elements", "file"};
+  const char* kind = nullptr;
+  for (const char* key : kinds) {
+    if (!mesh.has(key)) continue;
+    if (kind != nullptr) mesh.fail(key, fmt::format("stands beside {}", kind), one_kind_of_mesh);
+    kind = key;
+  }
+  if (kind == nullptr) mesh.fail("elements", "the key is missing", one_kind_of_mesh);
   if (mesh.has("file")) {
+    for (const char* key : {"growth", "largest"})
+      if (mesh.has(key))
+        mesh.fail(key, "has no meaning beside file", "the mesh has its elements already; leave this key out");
     read_mesh_file(zone, mesh, size, result, inputs);
   } else {
     if (mesh.has("unit")) mesh.fail("unit", "is that of a mesh file", "leave it out beside elements");

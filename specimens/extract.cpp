@@ -44,7 +44,7 @@ double clearance(const Specimen& larger, Shape shape, const Vec3& centre, const 
 
 }  // namespace
 
-Specimen extract(const Specimen& larger, Shape shape, const Vec3& centre, const Vec3& size) {
+Specimen cut_out(const Specimen& larger, Shape shape, const Vec3& centre, const Vec3& size) {
   require_size(shape, centre, size);
   const double hair = 1e-9 * larger.size.maxCoeff();  // the region may share a face, whatever the rounding
   if (const double found = clearance(larger, shape, centre, size); found < -hair)
@@ -73,6 +73,11 @@ Specimen extract(const Specimen& larger, Shape shape, const Vec3& centre, const 
     cut.radii.push_back(larger.radii[k]);
   }
   if (cut.elements() == 0) throw dem::InputError("extract", "the region holds no element", "make it larger");
+  return cut;
+}
+
+Specimen extract(const Specimen& larger, Shape shape, const Vec3& centre, const Vec3& size) {
+  Specimen cut = cut_out(larger, shape, centre, size);
   require_enough_elements(cut.shape, cut.size, cut.elements());
   link(cut);
   require_representative(cut);

@@ -13,12 +13,14 @@ struct PackModuli {
   /// E of the inside, four element sizes and more from every face; none in a cell under ten elements thick [Pa]
   std::optional<double> bulk;
   double membrane = 0;       ///< E of the whole section, stretched in its plane [Pa]
-  double flexural = 0;       ///< E of the whole section, bent out of its plane: M/(curvature I) [Pa]
+  double flexural = 0;       ///< E of the whole section, bent out of its plane [Pa]
   double poisson_ratio = 0;  ///< of the whole section, stretched
 };
 
-/// Static solves on a cell of the pack: a box that is as thick as the structure along `thickness_axis` and
-/// longer than thick along `along`. Throws InputError if the cell is no box or not long enough.
+/// Membrane and flexural modulus come from the energy of the cell's middle part: the soft faces of the
+/// structure count, the cell's own ends and sides do not. Static solves on a cell of the pack: a box that is as
+/// thick as the structure along `thickness_axis` and longer than thick along `along`. Throws InputError if the
+/// cell is no box or not long enough.
 PackModuli measure_moduli(const specimens::Specimen& cell, const dem::MaterialCard& card, int thickness_axis,
                           int along);
 

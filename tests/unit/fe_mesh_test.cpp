@@ -86,6 +86,65 @@ TEST(BoxMesh, SurroundsAZoneAndOverlapsItByLayers) {
   }
 }
 
+TEST(BoxMesh, GrowsAwayFromTheZone) {
+  fe::Grading grading;
+  grading.zone_elements = 4;
+  grading.growth = 1.5;
+  grading.largest = 1.6;
+  const std::vector<double> planes = fe::graded_planes(-7, 13, 2, 4, grading);
+  EXPECT_EQ(planes.front(), -7);
+  EXPECT_EQ(planes.back(), 13);
+  EXPECT_THAT(planes, testing::IsSupersetOf({2.0, 2.5, 3.0, 3.5, 4.0}))
+      << "the zone's faces and even steps between";
+  const std::size_t first = std::find(planes.begin(), planes.end(), 2.0) - planes.begin();
+  for (std::size_t k = first; k-- > 0;) {
+    const double size = planes[k + 1] - planes[k], inner = planes[k + 2] - planes[k + 1];
+    EXPECT_GE(size, inner * (1 - 1e-9));
+    EXPECT_LE(size, std::min(1.5 * inner, 1.6) * (1 + 1e-9));
+  }
+  // 0.5 growing by half to 1.6: .75 + 1.125 + 1.6 + 1.6 + ... reach 9 with seven, six fall short.
+  EXPECT_EQ(first, 7u);
+
+  fe::BoxMeshOptions options;
+  options.origin = Vec3(-7, 0, 0);
+  options.size = Vec3(20, 1, 1);
+  options.planes[0] = planes;
+  options.elements = {static_cast<int>(planes.size()) - 1, 2, 2};
+  options.zone = fe::DiscreteZone{Vec3(2, 0, 0), Vec3(4, 1, 1), 1};
+  const fe::Mesh mesh = fe::box_mesh(options);
+  EXPECT_NO_THROW(fe::check(mesh));
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) sum += fe::volume(mesh.corners(e));
+  EXPECT_NEAR(sum, 19, 1e-12) << "all but what lies deeper in the zone than a layer of 0.5";
+}
+
+TEST(BoxMesh, AZoneAtTheFaceHasNothingBeyondIt) {
+  fe::Grading grading;
+  grading.zone_elements = 2;
+  EXPECT_THAT(fe::graded_planes(0, 1, 0, 1, grading), testing::ElementsAre(0, 0.5, 1));
+  EXPECT_THAT(fe::graded_planes(0, 1.1, 0, 1, grading), testing::ElementsAre(0, 0.5, 1, 1.1));
+}
+
+TEST(BoxMesh, RefusesAGradingThatCannotBe) {
+  fe::Grading grading;
+  EXPECT_THAT(refusal([&] { fe::graded_planes(0, 3, 1, 2, grading); }), HasSubstr("0 elements in the zone"));
+  grading.zone_elements = 2;
+  grading.growth = 0.9;
+  EXPECT_THAT(refusal([&] { fe::graded_planes(0, 3, 1, 2, grading); }),
+              HasSubstr("factor of 0.9; allowed: 1 to 3"));
+  grading.growth = 1;
+  grading.largest = 0.4;
+  EXPECT_THAT(refusal([&] { fe::graded_planes(0, 3, 1, 2, grading); }),
+              HasSubstr("not below those in the zone, 0.5 m"));
+  grading.largest = 0;
+  EXPECT_THAT(refusal([&] { fe::graded_planes(0, 1e5, 1, 2, grading); }),
+              HasSubstr("more than 10000 elements"));
+  fe::BoxMeshOptions options = plain_box();
+  options.planes[1] = {2, 2.5, 2.9};
+  EXPECT_THAT(refusal([&] { fe::box_mesh(options); }),
+              HasSubstr("3 planes along y; 3 ascending ones are needed, from 2 to 3 m"));
+}
+
 TEST(BoxMesh, RefusesWhatCannotBeMeshed) {
   fe::BoxMeshOptions flat = plain_box();
   flat.size.z() = 0;

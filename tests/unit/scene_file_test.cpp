@@ -268,8 +268,8 @@ TEST(SceneCases, AreSound) {
   const Scene whole = impact::read_scene(cases / "slab-paper-de.toml");
   const Scene coupled = impact::read_scene(cases / "slab-paper-coupled.toml");
   EXPECT_EQ(whole.structure.packing.elements, 120808u);
-  EXPECT_EQ(coupled.structure.packing.elements, 6782u);
-  EXPECT_EQ(fe::box_mesh(coupled.surroundings->box).nodes.size(), 6040u);
+  EXPECT_EQ(coupled.structure.packing.elements, 120808u) << "from which the zone is cut";
+  EXPECT_EQ(fe::box_mesh(coupled.surroundings->box).nodes.size(), 5870u);
   EXPECT_NEAR(whole.impactor->body.mass, 67.5, 1e-9);
   EXPECT_NEAR(whole.impactor->body.mass * whole.approach.speed * whole.approach.speed / 2, 54e3, 1e-6);
   EXPECT_EQ(whole.card.cohesion, 36e6);

@@ -139,14 +139,40 @@ inline std::vector<Refusal> refusals() {
        "case.toml: mesh: the table is missing; a coupled case has [zone] and [mesh]; model = \"de\" needs "
        "neither"},
       {"elements = [20, 10, 4]", "",
-       "case.toml: mesh.elements: the key is missing; a mesh is either structured, as in elements = [38, 30, "
-       "4], or comes from a file = \"slab.msh\""},
+       "case.toml: mesh.elements: the key is missing; a mesh is even, as in elements = [38, 30, 4], or grows "
+       "away "
+       "from the zone, as in zone_elements = [16, 16, 4], or comes from a file = \"slab.msh\""},
+      {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nzone_elements = [12, 10, 4]",
+       "case.toml:17: mesh.zone_elements: stands beside elements; a mesh is even, as in elements = [38, 30, "
+       "4], or "
+       "grows away from the zone, as in zone_elements = [16, 16, 4], or comes from a file = \"slab.msh\""},
+      {"elements = [20, 10, 4]", "elements = [20, 10, 4]\ngrowth = 1.2",
+       "case.toml:17: mesh.growth: elements that fill the structure evenly do not grow; write zone_elements in "
+       "place of elements, or leave this key out"},
+      {"elements = [20, 10, 4]", "zone_elements = [12, 10]",
+       "case.toml:16: mesh.zone_elements: has 2 numbers, not three; write it as in zone_elements = [16, 16, "
+       "4]"},
+      {"elements = [20, 10, 4]", "zone_elements = [12, 10, 4]\ngrowth = 0.9",
+       "case.toml:17: mesh.growth: is 0.9; allowed: 1 to 3"},
+      {"elements = [20, 10, 4]", "zone_elements = [12, 10, 4]\nlargest = \"40 mm\"",
+       "case.toml:17: mesh.largest: structured mesh: elements of at most 0.04 m; allowed: not below those in "
+       "the "
+       "zone, 0.05 m"},
+      {"layers = 3", "layers = 3\ncut_from_whole = 1",
+       "case.toml:14: zone.cut_from_whole: 1 is neither true nor false; write cut_from_whole = true or "
+       "cut_from_whole = false"},
+      {"layers = 3\n\n[mesh]\nelements = [20, 10, 4]",
+       "overlap = \"0.1 m\"\n\n[mesh]\nfile = \"slab.msh\"\nunit = \"mm\"\ngrowth = 1.2",
+       "case.toml:18: mesh.growth: has no meaning beside file; the mesh has its elements already; leave this "
+       "key "
+       "out"},
       {"[20, 10, 4]", "[20, 10]",
        "case.toml:16: mesh.elements: has 2 numbers, not three; write it as in elements = [38, 30, 4]"},
       {"[20, 10, 4]", "[20, 0, 4]", "case.toml:16: mesh.elements: 0 along y; allowed: 1 to 10000"},
       {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nfile = \"slab.msh\"",
-       "case.toml:17: mesh.file: stands beside elements; a mesh is either structured, as in elements = [38, "
-       "30, 4], or comes from a file = \"slab.msh\""},
+       "case.toml:17: mesh.file: stands beside elements; a mesh is even, as in elements = [38, 30, 4], or "
+       "grows "
+       "away from the zone, as in zone_elements = [16, 16, 4], or comes from a file = \"slab.msh\""},
       {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nunit = \"mm\"",
        "case.toml:17: mesh.unit: is that of a mesh file; leave it out beside elements"},
       {"elements = [20, 10, 4]", "elements = [20, 10, 4]\nyoung_modulus = \"0 GPa\"",

@@ -1,10 +1,12 @@
 // Whole impacts on small slabs: what must hold whatever breaks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "impact/impact_run.h"
 #include "impact/impactors/mass_properties.h"
+#include "impact/model.h"
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
 
@@ -123,6 +125,22 @@ TEST(ImpactModels, AgreeOnAnElasticSlab) {
   const double expected = discrete.max_displacement.at("aside");
   EXPECT_NEAR(coupled.max_displacement.at("aside"), expected, 0.1 * expected);
   EXPECT_NEAR(coupled.impulse.z(), discrete.impulse.z(), 0.02 * discrete.impulse.z());
+}
+
+TEST(ImpactModels, HaveTheSameElementsWhereTheZoneIsCutFromTheWhole) {
+  const ImpactModel whole = make_model(slab(Model::de, brittle, 1), 1, {});
+  Scene scene = slab(Model::coupled, brittle, 1);
+  scene.surroundings->cut_from_whole = true;
+  scene.structure.packing = slab(Model::de, brittle, 1).structure.packing;
+  const ImpactModel cut = make_model(scene, 1, {});
+  const Surroundings& around = *scene.surroundings;
+  std::vector<Vec3> wanted;
+  for (const Vec3& at : whole.assembly.particles.initial_position)
+    if ((at.array() >= around.zone_low.array()).all() && (at.array() <= around.zone_high.array()).all())
+      wanted.push_back(at);
+  ASSERT_EQ(cut.assembly.particles.count, wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_LT((cut.assembly.particles.initial_position[i] - wanted[i]).norm(), 1e-14);
 }
 
 TEST(ImpactScene, ThatDoesNotFitTogetherIsRefused) {
