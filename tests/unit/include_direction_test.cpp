@@ -41,6 +41,7 @@ constexpr std::array kRooms = {
     "impact/outcome",
     "impact",
     "report",
+    "study/statistics",
     "study",
     "app",
     "python",
