@@ -98,22 +98,6 @@ void read_cuts(const TomlTable& table, CalibrationCase& result) {
   result.inputs.push_back(result.structure);
 }
 
-/// What a packed specimen is refused for later, told before it is packed: too few elements away from the faces.
-void require_enough_inside(const specimens::PackingOptions& packing) {
-  specimens::Specimen nominal;
-  nominal.shape = packing.shape;
-  nominal.size = packing.size;
-  const double element = std::cbrt(nominal.volume() / static_cast<double>(packing.elements));
-  nominal.size = (nominal.size - dem::Vec3::Constant(4 * element)).cwiseMax(0);
-  const double inside = nominal.volume() / (element * element * element);
-  if (inside < static_cast<double>(specimens::least_internal_elements))
-    throw InputError(
-        fmt::format("{} elements", packing.elements),
-        fmt::format("about {:.0f} of them are deeper than two element sizes, at least {} are needed", inside,
-                    specimens::least_internal_elements),
-        "too small to be representative: take more elements");
-}
-
 void read_packing(const TomlTable& table, CalibrationCase& result) {
   refuse_keys(table, {"fit_centres", "check_centres"}, "says where to cut, but not from what",
               "name the structure with cut_from = \"slab.h5\", or give fit_seeds and check_seeds");
@@ -125,7 +109,7 @@ void read_packing(const TomlTable& table, CalibrationCase& result) {
   told_about(table, "elements", [&] {
     packing.validate();
     specimens::require_enough_elements(packing.shape, packing.size, packing.elements);
-    require_enough_inside(packing);
+    specimens::require_enough_inside(packing.shape, packing.size, packing.elements);
   });
   result.fit_seeds = read_seeds(table, "fit_seeds", {1, 2, 3, 4});
   result.check_seeds = read_seeds(table, "check_seeds", {101, 102, 103});

@@ -64,4 +64,19 @@ void require_enough_elements(Shape shape, const Vec3& size, std::size_t elements
   if (!few.empty()) throw dem::InputError(described(shape, size, elements), few, remedy);
 }
 
+void require_enough_inside(Shape shape, const Vec3& size, std::size_t elements) {
+  Specimen nominal;
+  nominal.shape = shape;
+  nominal.size = size;
+  const double element = std::cbrt(nominal.volume() / static_cast<double>(elements));
+  nominal.size = (nominal.size - Vec3::Constant(4 * element)).cwiseMax(0);
+  const double inside = nominal.volume() / (element * element * element);
+  if (inside < static_cast<double>(least_internal_elements))
+    throw dem::InputError(
+        fmt::format("{} elements", elements),
+        fmt::format("about {:.0f} of them are deeper than two element sizes, at least {} are needed", inside,
+                    least_internal_elements),
+        "too small to be representative: take more elements");
+}
+
 }  // namespace specimens

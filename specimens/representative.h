@@ -23,4 +23,7 @@ void require_representative(const Specimen& specimen);
 /// The part of it that is known before packing. Throws InputError.
 void require_enough_elements(Shape shape, const Vec3& size, std::size_t elements);
 
+/// Another part of it, estimated before packing: enough elements away from the faces. Throws InputError.
+void require_enough_inside(Shape shape, const Vec3& size, std::size_t elements);
+
 }  // namespace specimens

@@ -174,6 +174,17 @@ void TomlTable::finish() const {
 
 bool TomlTable::has(std::string_view key) const { return Access{*this, key}.find() != nullptr; }
 
+TomlTable::Kind TomlTable::kind(std::string_view key) const {
+  const toml::node* value = Access{*this, key}.find();
+  if (value == nullptr) return Kind::absent;
+  return value->is_string()    ? Kind::text
+         : value->is_number()  ? Kind::number
+         : value->is_boolean() ? Kind::boolean
+         : value->is_array()   ? Kind::list
+         : value->is_table()   ? Kind::table
+                               : Kind::other;
+}
+
 std::vector<std::string> TomlTable::keys() const {
   std::vector<std::pair<toml::source_position, std::string>> found;
   for (const auto& [name, value] : *node->table) {

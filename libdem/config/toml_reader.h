@@ -31,6 +31,9 @@ class TomlTable {
   void finish() const;
 
   bool has(std::string_view key) const;
+  /// What stands under `key`, for keys that may be written in several ways. A date is `other`.
+  enum class Kind { absent, text, number, boolean, list, table, other };
+  Kind kind(std::string_view key) const;
   /// All keys in the file's order; they count as asked for. For tables of free text.
   std::vector<std::string> keys() const;
 

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "libdem/config/nearest_name.h"
 #include "libdem/config/toml_reader.h"
 #include "libdem/core/error.h"
 #include "libdem/core/units.h"
+#include "libdem/material/card_numbers.h"
 
 namespace dem {
 namespace {
@@ -148,6 +151,16 @@ std::vector<CardNumber> numbers_of(const MaterialCard& card) {
   for (const Field& field : fields)
     numbers.push_back({field.key, card.*field.value, field.kind, field.comment});
   return numbers;
+}
+
+void set_number(MaterialCard& card, std::string_view key, double value) {
+  const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.key == key; });
+  if (field == fields.end()) {
+    std::vector<std::string> known;
+    for (const Field& f : fields) known.emplace_back(f.key);
+    throw InputError(std::string(key), "a card has no such number", suggestion(key, known));
+  }
+  card.*field->value = value;
 }
 
 std::string_view name_of(SofteningUnloading choice) { return unloadings[static_cast<std::size_t>(choice)]; }

@@ -1,0 +1,61 @@
+#include "study/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace study {
+namespace {
+
+// Rates of one core of an AMD EPYC (Zen 5, AVX-512), rounded: what docs/studies.md says of them comes from
+// here.
+constexpr double seconds_per_element_step = 6e-8;  // links, contacts and bookkeeping
+constexpr double seconds_per_packed_element = 3e-4;
+constexpr double seconds_per_solved_element = 2e-5;  // times the elements along the specimen: iterations
+constexpr double bytes_per_element = 6000;
+constexpr double bytes_per_process = 20e6;
+/// The critical time step over (element size / wave speed), and the part of it that a test takes.
+constexpr double critical_share = 0.49;
+
+specimens::Specimen nominal(const specimens::PackingOptions& packing) {
+  specimens::Specimen specimen;
+  specimen.shape = packing.shape;
+  specimen.size = packing.size;
+  return specimen;
+}
+
+double memory(const specimens::PackingOptions& specimen) {
+  return bytes_per_process + bytes_per_element * static_cast<double>(specimen.elements);
+}
+
+}  // namespace
+
+Estimate estimate_test(const specimens::PackingOptions& packing, const dem::MaterialCard& card,
+                       const VirtualTest& test) {
+  const specimens::Specimen specimen = nominal(packing);
+  const auto elements = static_cast<double>(packing.elements);
+  const double element_size = std::cbrt(specimen.volume() / elements);
+  const int axis = test.options.axis < 0 ? specimen.long_axis() : test.options.axis;
+  const double along = specimen.size[axis] / element_size;
+  if (test.kind == TestKind::elastic) return {seconds_per_solved_element * elements * along, memory(packing)};
+
+  // The numbers that a uniaxial test settles before its first step: see specimens/virtual_tests/uniaxial_plan.
+  const bool tension = test.kind == TestKind::tension;
+  const virtual_tests::UniaxialOptions& o = test.options;
+  const double strength =
+      o.expected_strength > 0 ? o.expected_strength : (tension ? 0.9 : 6) * card.tensile_strength;
+  const double elastic_strain = strength / card.young_modulus;
+  const double wave_speed = std::sqrt(card.young_modulus / card.density);
+  const double rate = o.rate > 0 ? o.rate : tension ? 0.03 : 0.01;
+  const double velocity = o.velocity > 0 ? o.velocity : rate * wave_speed * elastic_strain;
+  const double limit = o.max_strain > 0 ? o.max_strain : elastic_strain * (tension ? 20 : 8);
+  const double end = std::min(limit, elastic_strain * (tension ? 1 + card.softening / 3 : 1.5));
+  const double time_step = o.time_step_fraction * critical_share * element_size / wave_speed;
+  const double steps = end * specimen.size[axis] / (velocity * time_step);
+  return {seconds_per_element_step * elements * steps, memory(packing)};
+}
+
+Estimate estimate_packing(const specimens::PackingOptions& packing) {
+  return {seconds_per_packed_element * static_cast<double>(packing.elements), memory(packing)};
+}
+
+}  // namespace study

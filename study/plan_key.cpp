@@ -1,0 +1,39 @@
+#include "study/plan_key.h"
+
+#include <fmt/format.h>
+
+#include "libdem/core/sha256.h"
+#include "libdem/law/cohesive_link.h"
+
+namespace study {
+
+std::string key_text(const SpecimenRecipe& recipe) {
+  if (!recipe.file.empty()) return "specimen " + recipe.sha256;
+  const specimens::PackingOptions& p = recipe.packing;
+  return fmt::format("packed {}|{}|{:a} {:a} {:a}|{}|{}|{}|{:a}|{:a}|{:a}|{:a}", packing_version,
+                     specimens::name_of(p.shape), p.size.x(), p.size.y(), p.size.z(), p.elements, p.seed,
+                     static_cast<int>(p.grading.kind), p.grading.size_ratio, p.grading.log_deviation,
+                     p.dense_solid_fraction, p.solid_fraction);
+}
+
+std::string key_of(const SpecimenRecipe& recipe) { return dem::sha256_of(key_text(recipe)); }
+
+std::string task_key(const SpecimenRecipe& recipe, const dem::MaterialCard& card, const VirtualTest& test) {
+  std::string text = fmt::format("spall-study-result {}|{}", result_version, key_text(recipe));
+  const virtual_tests::UniaxialOptions& o = test.options;
+  if (test.kind == TestKind::elastic) {
+    const dem::LinkLaw law = dem::make_link_law(card);
+    return dem::sha256_of(
+        fmt::format("{}|elastic|{}|{:a}|{:a}", text, o.axis, law.normal_modulus, law.shear_ratio));
+  }
+  for (const dem::CardNumber& number : dem::numbers_of(card))
+    text += fmt::format("|{}={:a}", number.key, number.value);
+  text += fmt::format("|{}|{}|{}", dem::name_of(card.unloading), dem::name_of(card.cohesion_during_softening),
+                      dem::name_of(card.broken_link_contact));
+  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
+                      dem::name_of(o.ends), o.axis, o.expected_strength, o.velocity, o.rate, o.damping,
+                      o.time_step_fraction, o.stop_at, o.max_strain);
+  return dem::sha256_of(text);
+}
+
+}  // namespace study
