@@ -146,9 +146,14 @@ Json result_of(const Scene& scene, const ImpactResult& found, int threads) {
   result["momentum_error"] = found.momentum_error;
   result["formulas"] = formulas_of(scene);
   result["warnings"] = found.warnings;
-  if (scene.surroundings)
+  if (scene.surroundings) {
     result["multipliers"] =
         scene.surroundings->solve == coupling::MultiplierSolve::lumped ? "lumped" : "consistent";
+    result["finite_elements"] = {{"young_modulus", found.finite_young_modulus},
+                                 {"poisson_ratio", found.finite_poisson_ratio},
+                                 {"interval", found.interval},
+                                 {"overlap", scene.surroundings->overlap}};
+  }
   result["threads"] = threads;
   result["step_loop_seconds"] = found.step_loop_seconds;
   result["overlap_solve_seconds"] = found.overlap_solve_seconds;

@@ -313,6 +313,11 @@ ImpactResult conclude(Run& run, Clock::time_point start) {
   result.elements = run.model.assembly.particles.count;
   result.nodes = run.model.finite ? run.model.finite->mesh.nodes.size() : 0;
   result.links = run.model.assembly.links.count;
+  if (run.model.finite) {
+    result.finite_young_modulus = run.model.finite->material_young_modulus;
+    result.finite_poisson_ratio = run.model.finite->material_poisson_ratio;
+    result.interval = run.model.finite->sub_stepping.interval();
+  }
   result.contacts = run.model.assembly.contacts.count;
   result.steps = static_cast<long>(record.steps);
   result.time_step = run.model.time_step;

@@ -59,6 +59,9 @@ struct ImpactResult {
   std::size_t elements = 0, nodes = 0, links = 0, contacts = 0;
   long steps = 0;
   double time_step = 0, critical_time_step = 0, simulated_time = 0;  ///< [s]
+  /// Of the finite elements, given or measured on the pack [Pa], [-]; 0 without.
+  double finite_young_modulus = 0, finite_poisson_ratio = 0;
+  int interval = 0;  ///< steps between forces of the finite elements; 0 without
   std::vector<Sample> history;
   std::map<std::string, double> max_displacement;  ///< largest norm by probe [m]
   double peak_force = 0;                           ///< largest mean over a sample interval [N]
