@@ -22,7 +22,7 @@ namespace {
 
 struct ImpactOptions {
   CommonOptions common;
-  std::string file, output;
+  std::string file, card, output;
   bool resume = false;
 };
 
@@ -114,7 +114,8 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
 
 int run_case(const ImpactOptions& options, const Invocation& invocation) {
   use_threads(options.common);
-  const impact::Scene scene = impact::read_scene(options.file);
+  const impact::Scene scene = impact::read_scene(
+      options.file, options.card.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.card));
   const bool was_there = std::filesystem::exists(options.output);
   try {
     return run_into_folder(options, invocation, scene);
@@ -142,6 +143,8 @@ void add_impact(CLI::App& root, Invocation& invocation) {
       "spall impact slab.toml -o out/impact",
       options->common);
   verb->add_option("case", options->file, "Case (TOML): structure, supports, impactor, duration")->required();
+  verb->add_option("--card", options->card,
+                   "Material card in place of the case's, for instance one that spall calibrate wrote");
   verb->add_option(
           "-o,--output", options->output,
           "Folder for result.json, run.json, curves.csv, history.h5, fragments.csv, report.html, frames/")

@@ -24,7 +24,13 @@ TomlTable need(const TomlTable& root, const char* name) {
   return root.table(name);
 }
 
-void read_card_of(const TomlTable& root, Scene& scene) {
+void read_card_of(const TomlTable& root, const std::optional<std::filesystem::path>& instead, Scene& scene) {
+  if (instead) {
+    if (root.has("card")) root.text("card");
+    scene.inputs.push_back(*instead);
+    scene.card = dem::read_card(*instead);
+    return;
+  }
   const std::filesystem::path file = read_path(root, "card");
   scene.inputs.push_back(file);
   scene.card = told_about(root, "card", [&] { return dem::read_card(file); });
@@ -161,7 +167,7 @@ void read_run(const TomlTable& run, Scene& scene) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
+Scene read_scene(const std::filesystem::path& file, const std::optional<std::filesystem::path>& card) {
   const TomlTable root = TomlTable::read(file);
   root.allow_only({"title", "model", "card", "structure", "zone", "mesh", "coupling", "support", "impactor",
                    "probe", "run", "output"});
@@ -169,7 +175,7 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.inputs.push_back(file);
   scene.title = root.text("title", file.stem().string());
   scene.model = root.choice("model", {"de", "coupled"}) == "de" ? Model::de : Model::coupled;
-  read_card_of(root, scene);
+  read_card_of(root, card, scene);
 
   const TomlTable structure = need(root, "structure");
   structure.allow_only({"size", "elements", "seed", "size_ratio", "specimen", "compressive_strength"});

@@ -135,6 +135,18 @@ TEST_F(Impact, WrongInputsAreRefusedAndNothingIsWritten) {
   EXPECT_THAT(refused("\"card.toml\"", "\"cart.toml\""), HasSubstr("cart.toml"));
 }
 
+TEST_F(Impact, TakesAnotherCardThanTheCaseNames) {
+  write("fitted.toml", replaced(good_card, "T = \"3.1 MPa\"", "T = \"9.3 MPa\""));
+  write("slab.toml", replaced(slab, "0.4 ms", "0.1 ms"));
+  ASSERT_EQ(spall(impact("own", {"--threads", "1"})).code, 0);
+  const auto other = spall(impact("out", {"--threads", "1", "--card", "fitted.toml"}));
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_LT(json("out/result.json")["broken_links"].get<int>(),
+            json("own/result.json")["broken_links"].get<int>());
+  EXPECT_EQ(json("out/run.json")["inputs"][1]["file"], "fitted.toml");
+  EXPECT_THAT(refusal(2, impact("none", {"--card", "fited.toml"})), HasSubstr("fited.toml"));
+}
+
 TEST_F(Impact, WhatShowsOnlyOncePackedIsRefusedToo) {
   // Too thin a support to hold the centre of any element.
   write("slab.toml", replaced(slab, "high = \"0.03,0.24,0.08 m\"", "high = \"0.00001,0.24,0.08 m\""));
