@@ -1,5 +1,5 @@
 // The figures of docs/validation.md that take many specimens: `./dev validate`, or one part of it,
-// spall_validation elastic|strength|packing.
+// spall_validation elastic|strength|packing|impact.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/validation_parts.h"
 #include "calibrate/elastic_stage.h"
 #include "specimens/packing.h"
 #include "specimens/virtual_tests/elastic.h"
@@ -140,5 +141,6 @@ int main(int count, char** arguments) {
   run("elastic", elastic);
   run("strength", strength);
   run("packing", packing);
+  run("impact", bench::validate_impact);
   return 0;
 }

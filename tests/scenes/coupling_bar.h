@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "tests/verification/coupling_scene.h"
+#include "tests/scenes/coupling_scene.h"
 
 namespace coupling_scene {
 
