@@ -7,11 +7,12 @@
 
 namespace test {
 
-/// The message of the InputError that `action` throws; "no error" if it throws none.
-inline std::string message_of(const std::function<void()>& action) {
+/// The message of the `Error` that `action` throws; "no error" if it throws none.
+template <class Error = dem::InputError>
+std::string message_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const dem::InputError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "no error";
