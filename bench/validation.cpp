@@ -1,5 +1,5 @@
 // The figures of docs/validation.md that take many specimens: `./dev validate`, or one part of it,
-// spall_validation elastic|strength|packing|impact.
+// spall_validation elastic|strength|packing|impact|slab|slab-cards|slab-long.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -135,12 +135,20 @@ void packing() {
 
 int main(int count, char** arguments) {
   const std::string wanted = count > 1 ? arguments[1] : "all";
+  bool known = false;
   const auto run = [&](const char* name, void (*part)()) {
-    if (wanted == "all" || wanted == name) part(), std::fflush(stdout);
+    if (wanted != "all" && wanted != name) return;
+    known = true;
+    part();
+    std::fflush(stdout);
   };
   run("elastic", elastic);
   run("strength", strength);
   run("packing", packing);
   run("impact", bench::validate_impact);
-  return 0;
+  run("slab", bench::validate_slab);
+  run("slab-cards", bench::validate_slab_cards);
+  run("slab-long", bench::validate_slab_long);
+  if (!known) fmt::print(stderr, "spall_validation: there is no part \"{}\"\n", wanted);
+  return known ? 0 : 2;
 }
