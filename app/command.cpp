@@ -77,7 +77,8 @@ std::string explain(const CLI::App& root, const CLI::ParseError& error,
     verb = verb->get_subcommand(arguments[next]);
     path += " " + arguments[next++];
   }
-  if (const auto names = names_of_verbs(*verb); !names.empty()) {
+  // A verb that also works by itself takes other words than verbs.
+  if (const auto names = names_of_verbs(*verb); !names.empty() && verb->get_require_subcommand_min() > 0) {
     if (next < arguments.size() && !arguments[next].starts_with('-'))
       return fmt::format("{}: \"{}\" is no verb; {}", path, arguments[next],
                          dem::suggestion(arguments[next], names));

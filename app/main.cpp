@@ -57,6 +57,7 @@ int main(int count, char** values) {
   app::add_test(root, invocation);
   app::add_calibrate(root, invocation);
   app::add_impact(root, invocation);
+  app::add_study(root, invocation);
   app::add_card(root, invocation);
   app::add_report(root, invocation);
 

@@ -9,6 +9,7 @@
 #include "app/curve_table.h"
 #include "app/impact_page.h"
 #include "app/report_words.h"
+#include "app/study_page.h"
 #include "app/test_page.h"
 #include "libdem/core/error.h"
 #include "report/page.h"
@@ -92,6 +93,9 @@ void write_report(const std::filesystem::path& folder) {
       page = calibration_page(result, curves);
     } else if (result.contains("model") && result.contains("max_displacement")) {
       page = impact_page(result, curves);
+      page.subtitle = name;
+    } else if (result.contains("study") && result.contains("rows")) {
+      page = study_page(result);
       page.subtitle = name;
     } else {
       page = plain_page(result, curves);

@@ -10,6 +10,7 @@ void add_test(CLI::App& root, Invocation& invocation);
 void add_calibrate(CLI::App& root, Invocation& invocation);
 void add_impact(CLI::App& root, Invocation& invocation);
 void add_card(CLI::App& root, Invocation& invocation);
+void add_study(CLI::App& root, Invocation& invocation);
 void add_report(CLI::App& root, Invocation& invocation);
 
 }  // namespace app

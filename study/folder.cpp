@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t key_length = 64;
+constexpr const char* parts[] = {"tasks", "times", "specimens", "checkpoints"};
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -39,8 +41,7 @@ nlohmann::ordered_json json_of(const fs::path& file) {
 
 void StudyFolder::make() const {
   dem::require_writable_folder(root);
-  for (const char* part : {"tasks", "times", "specimens", "checkpoints"})
-    dem::require_writable_folder(root / part);
+  for (const char* part : parts) dem::require_writable_folder(root / part);
 }
 
 void StudyFolder::require_space() const {
@@ -50,9 +51,15 @@ void StudyFolder::require_space() const {
   fs::remove(root / "tasks" / fmt::format(".probe-{}", ::getpid()), ignored);
 }
 
+bool StudyFolder::concerns(const std::string& message) const {
+  return std::any_of(std::begin(parts), std::end(parts), [&](const char* part) {
+    return message.find((root / part / "").string()) != std::string::npos;
+  });
+}
+
 void StudyFolder::sweep(Claims& claims) const {
   std::error_code error;
-  for (const char* part : {"tasks", "times", "specimens", "checkpoints"})
+  for (const char* part : parts)
     for (fs::directory_iterator entry(root / part, error), end; !error && entry != end;
          entry.increment(error)) {
       const std::string name = entry->path().filename().string();

@@ -20,6 +20,8 @@ class StudyFolder {
   void make() const;
   /// Throws RunError, with the system's reason, if nothing can be written any more (a full disk).
   void require_space() const;
+  /// Whether an error's message names one of the folder's own files: then the folder is at fault, not the task.
+  bool concerns(const std::string& message) const;
   /// Removes what a killed process left half written. Throws nothing.
   void sweep(Claims& claims) const;
 

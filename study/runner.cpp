@@ -227,7 +227,7 @@ void Run::run_claimed(std::size_t index) {
     folder.write_result(job.key, outcome->result);
   } else {
     // A folder that cannot be written (a full disk) is not the task's failure: it ends the run.
-    if (message.find(folder.path().string()) != std::string::npos) throw dem::RunError(message);
+    if (folder.concerns(message)) throw dem::RunError(message);
     folder.require_space();
     folder.write_failure(job.key, message);
   }

@@ -74,6 +74,18 @@ std::string unit_of(const std::string& key) {
   return "-";
 }
 
+/// "E[Pa]"; without a unit what is no number.
+std::string header_of(const RowTable& table, const std::string& key) {
+  for (const Row& row : table.rows)
+    for (const auto& [name, value] : row.values)
+      if (name == key) {
+        const bool number =
+            std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
+        return number ? fmt::format("{}[{}]", key, unit_of(key)) : key;
+      }
+  return key;
+}
+
 /// Quoted where a comma, a quote or a line break would end the cell.
 std::string cell(std::string text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -121,7 +133,7 @@ std::string rows_csv(const Plan& plan, const RowTable& table) {
   for (const Parameter& parameter : plan.study.parameters)
     csv += fmt::format(",card.{}[{}]", parameter.key, dem::si_unit(parameter.kind));
   csv += ",test,kind";
-  for (const std::string& key : keys) csv += fmt::format(",{}[{}]", key, unit_of(key));
+  for (const std::string& key : keys) csv += fmt::format(",{}", header_of(table, key));
   csv += "\n";
   for (const Row& row : table.rows) {
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row.task, cell(row.specimen), row.shape, row.seed,

@@ -206,6 +206,7 @@ TEST_F(Runner, KeepsAFailuresMessageAndRunsItAgainWhenAsked) {
   ASSERT_EQ(first.failures.size(), 2u);
   EXPECT_EQ(first.failures[0].task, 2u);
   EXPECT_THAT(first.failures[0].message, HasSubstr("too small to be representative"));
+  EXPECT_FALSE(out.concerns(first.failures[0].message));
   const study::RunOutcome second = study::run_tasks(plan, all_of(plan), out, {});
   EXPECT_EQ(second.ran, 0u);
   EXPECT_EQ(second.failures.size(), 2u);
