@@ -90,6 +90,9 @@ void read_energies(RunRecord& record, const ImpactModel& model, const StepTaken&
     energy.nodes = 0;
     for (std::size_t i = 0; i < nodes_before.size(); ++i)
       energy.nodes += 0.5 * nodes.mass[i] * nodes_before[i].dot(nodes.velocity[i]);
+    const coupling::ImpulseEnergy impulses = model.finite->sub_stepping.impulse_energy(
+        *model.finite->body, model.finite->nodes, nodes_before, model.time_step);
+    energy.nodes += impulses.kinetic, energy.finite_elastic += impulses.elastic;
   }
   record.worst_imbalance = std::max(record.worst_imbalance, std::abs(energy.imbalance()));
 }

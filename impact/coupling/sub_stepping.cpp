@@ -42,4 +42,29 @@ void SubStepping::advance_velocities(const fe::Body& body, fe::State& state, std
   fe::advance_velocities(state, time_step, threads);
 }
 
+ImpulseEnergy SubStepping::impulse_energy(const fe::Body& body, const fe::State& state,
+                                          std::span<const Vec3> velocity_before, double time_step) const {
+  if (every == 1) return {};
+  fe::ElementRows rows;
+  const auto forces = [&](const fe::Portion& portion, const std::vector<Vec3>& displacement) {
+    fe::State one = state;
+    one.displacement = displacement;
+    std::fill(one.force.begin(), one.force.end(), Vec3::Zero());
+    fe::add_internal_force(body, portion, 1, one, rows);
+    return one.force;
+  };
+  const std::vector<Vec3> of_far = forces(far, state.displacement), of_near = forces(near, state.displacement),
+                          of_motion = forces(far, state.velocity);
+  const double interval = every * time_step, square = interval * interval / 12;
+  ImpulseEnergy energy;
+  for (const std::int32_t node : far.nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    const Vec3 change = state.inverse_mass[i].cwiseProduct(of_far[i]);
+    energy.kinetic -= square * velocity_before[i].dot(of_motion[i]);
+    energy.elastic +=
+        square * change.dot(of_far[i]) - (square - 0.25 * interval * time_step) * change.dot(of_near[i]);
+  }
+  return energy;
+}
+
 }  // namespace coupling

@@ -41,6 +41,14 @@ TEST_P(ImpactRun, KeepsEnergyToAMilliPercentWhereNothingBreaks) {
   EXPECT_TRUE(result.fragments.fragments.size() == 1);
 }
 
+TEST(CoupledImpact, KeepsItsLedgerClosedWhenFiniteElementsStepSeldom) {
+  Scene scene = slab(Model::coupled, unbreakable, 1);
+  scene.surroundings->interval = 0;  // as seldom as is stable
+  const ImpactResult result = run_impact(scene, 1);
+  EXPECT_LT(result.energy_balance_error, 2e-3);
+  RecordProperty("imbalance", std::to_string(result.energy_balance_error));
+}
+
 TEST_P(ImpactRun, GivesTheSameBitsOnAnyNumberOfThreads) {
   const ImpactResult one = run_impact(slab(GetParam(), brittle, 8), 1);
   for (const int threads : {2, 3, 8}) {
