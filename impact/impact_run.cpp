@@ -71,6 +71,7 @@ struct Run {
       const Vec3 spin = motion.orientation.conjugate() * motion.spin;
       record.energy.initial = 0.5 * scene.impactor->body.mass * motion.velocity.squaredNorm() +
                               0.5 * spin.dot(scene.impactor->body.inertia * spin);
+      record.energy.impactor = record.energy.initial;
     }
     record.first_momentum = momentum_of(model, body(), impactor);
   }
@@ -169,7 +170,7 @@ void take_sample(Run& run) {
   for (const ProbePlace& place : run.model.probes)
     sample.displacement.push_back(run.model.displacement_at(place));
   const double since = record.history.empty() ? sample.time : sample.time - record.history.back().time;
-  sample.force = (record.force.impulse() - record.impulse_at_sample) / since;
+  if (since > 0) sample.force = (record.force.impulse() - record.impulse_at_sample) / since;
   record.impulse_at_sample = record.force.impulse();
   sample.impactor_position = run.impactor.motion.position;
   sample.impactor_velocity = run.impactor.motion.velocity;
@@ -354,7 +355,10 @@ ImpactResult run_impact(const Scene& scene, int threads, const dem::ProgressCall
   const dem::Belonging belonging = checkpoint.file.empty() ? dem::Belonging{} : belonging_of(scene, run.model);
   if (checkpoint.resume && std::filesystem::exists(checkpoint.file))
     go_on_from(run, checkpoint.file, belonging);
-  if (run.record.steps == 0 && scene.frames > 0) show(run, frame, 0);
+  if (run.record.steps == 0) {
+    take_sample(run);
+    if (scene.frames > 0) show(run, frame, 0);
+  }
 
   Clock::time_point loop = Clock::now(), kept = loop, told = loop;
   const auto book_time = [&] {

@@ -62,6 +62,7 @@ struct ImpactResult {
   /// Of the finite elements, given or measured on the pack [Pa], [-]; 0 without.
   double finite_young_modulus = 0, finite_poisson_ratio = 0;
   int interval = 0;  ///< steps between forces of the finite elements; 0 without
+  /// The first before anything moves.
   std::vector<Sample> history;
   std::map<std::string, double> max_displacement;  ///< largest norm by probe [m]
   double peak_force = 0;                           ///< largest mean over a sample interval [N]

@@ -49,6 +49,20 @@ TEST(CoupledImpact, KeepsItsLedgerClosedWhenFiniteElementsStepSeldom) {
   RecordProperty("imbalance", std::to_string(result.energy_balance_error));
 }
 
+TEST_P(ImpactRun, NotesDownTheStart) {
+  Scene scene = slab(GetParam(), unbreakable, 1);
+  scene.duration = 1e-9;
+  const ImpactResult result = run_impact(scene, 1);
+  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.steps) + 1)
+      << "a row for each of the few steps";
+  const Sample& first = result.history.front();
+  EXPECT_EQ(first.time, 0);
+  EXPECT_EQ(first.displacement, std::vector<Vec3>(2, Vec3::Zero()));
+  EXPECT_EQ(first.force, Vec3::Zero());
+  EXPECT_EQ(first.impactor_velocity, Vec3(0, 0, -1));
+  EXPECT_EQ(first.energy.final_sum(), result.energy.initial);
+}
+
 TEST_P(ImpactRun, GivesTheSameBitsOnAnyNumberOfThreads) {
   const ImpactResult one = run_impact(slab(GetParam(), brittle, 8), 1);
   for (const int threads : {2, 3, 8}) {
