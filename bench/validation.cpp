@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/validation_parts.h"
@@ -137,7 +138,8 @@ int main(int count, char** arguments) {
   const std::string wanted = count > 1 ? arguments[1] : "all";
   bool known = false;
   const auto run = [&](const char* name, void (*part)()) {
-    if (wanted != "all" && wanted != name) return;
+    const bool piece = wanted == "impact" && std::string_view(name).starts_with("impact-");
+    if (wanted != "all" && wanted != name && !piece) return;
     known = true;
     part();
     std::fflush(stdout);
@@ -145,7 +147,10 @@ int main(int count, char** arguments) {
   run("elastic", elastic);
   run("strength", strength);
   run("packing", packing);
-  run("impact", bench::validate_impact);
+  run("impact-waves", bench::validate_impact_waves);
+  run("impact-energy", bench::validate_impact_energy);
+  run("impact-slab", bench::validate_impact_slab);
+  run("impact-ties", bench::validate_impact_ties);
   run("slab", bench::validate_slab);
   run("slab-cards", bench::validate_slab_cards);
   run("slab-long", bench::validate_slab_long);
