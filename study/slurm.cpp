@@ -197,7 +197,7 @@ std::string batch_script(const SlurmPlace& place, const std::vector<Chunk>& chun
       out, "exec {} study run {} -o {} --tasks \"${{tasks[SLURM_ARRAY_TASK_ID]}}\" --threads {} --memory {}",
       shell_word(place.program.string()), shell_word(place.study.string()), shell_word(place.output.string()),
       options.threads, static_cast<long long>(memory_limit(chunks, options)));
-  for (const std::string& argument : place.arguments) text += " " + shell_word(argument);
+  for (const std::string& argument : place.arguments) fmt::format_to(out, " {}", shell_word(argument));
   return text + "\n";
 }
 
