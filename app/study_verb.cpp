@@ -11,6 +11,7 @@
 #include "app/report_page.h"
 #include "app/report_words.h"
 #include "app/study_plan.h"
+#include "app/study_slurm.h"
 #include "app/verbs.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
@@ -28,6 +29,7 @@ struct StudyOptions {
   std::string file, output, tasks, share;
   std::uint64_t memory = 0;
   bool retry_failed = false, resume = false;
+  SlurmChoices slurm;
 };
 
 study::Plan read_plan(const StudyOptions& options) { return study::make_plan(study::read_study(options.file)); }
@@ -156,6 +158,13 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
     chosen = study::share_of(plan, chosen, share.index, share.count);
   }
   Console console(options.common);
+  if (options.slurm.wanted()) {
+    // Cores are counted on the node, not on the machine that submits.
+    const int threads = options.common.threads > 0 ? options.common.threads : 1;
+    return submit_study({plan, chosen, options.file, options.output, threads,
+                         static_cast<double>(options.memory), options.retry_failed},
+                        options.slurm, console);
+  }
   const study::RunOutcome outcome = run_or_stop(options, invocation, plan, chosen, console);
   console.say(fmt::format("{}: {} tasks, {} results made now, {} found, {} tasks failed", plan.study.name,
                           outcome.chosen, outcome.ran, outcome.results - std::min(outcome.results, outcome.ran),
@@ -208,6 +217,8 @@ int status_of_study(const StudyOptions& options) {
                         duration(status.seconds_left / options.common.thread_count()),
                         options.common.thread_count());
   console.say(line);
+  if (Json slurm = tell_slurm_status(plan, options.output, status.states, console); !slurm.is_null())
+    json["slurm"] = std::move(slurm);
   console.result(json.dump(2));
   return done;
 }
@@ -277,6 +288,7 @@ void add_study(CLI::App& root, Invocation& invocation) {
   run->add_option(
       "--share", options->share,
       "Only this share of the tasks: 2/8, or mpi for the one of the rank that mpirun or srun gives");
+  add_slurm_options(run, options->slurm);
   add_running(run, *options);
   const std::string after = small_study + "spall study run study.toml -o out/study\n";
   add_output(add("status", "Say how far a study is", after + "spall study status study.toml -o out/study",
