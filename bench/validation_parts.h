@@ -3,6 +3,10 @@
 
 namespace bench {
 
+/// Whether strength and moduli depend on the specimen's size and shape: all shapes of the paper's Table 1, the
+/// skin that a face leaves, and what else could make a trend (speed, end condition, size itself).
+void validate_sizes();
+
 // The coupling where nothing breaks; `impact` runs all four.
 
 /// Energy that the interface reflects, of P and S waves from either side.

@@ -102,6 +102,25 @@ TEST(Scaling, StrengthsTimesKGiveStressesTimesK) {
   EXPECT_NEAR(scaled.peak_strain, k * tension().peak_strain, 1e-2 * k * tension().peak_strain);
 }
 
+TEST(Scaling, AllLengthsTimesTwoGiveTheSameStresses) {
+  // The model knows no length but the elements' own, and the platens' speed does not depend on the length: a
+  // specimen twice as large, of elements twice as large, is the same specimen with time twice as slow.
+  specimens::Specimen larger = prism();
+  larger.size *= 2;
+  for (dem::Vec3& x : larger.centres) x *= 2;
+  for (double& r : larger.radii) r *= 2;
+  for (dem::LinkGeometry& link : larger.links) link.initial_distance *= 2;
+  UniaxialOptions options;
+  options.stop_at = 0.9;
+  options.expected_strength = 2.5e6;
+  const UniaxialResult scaled = run_uniaxial(larger, dem::MaterialCard{}, options);
+  EXPECT_EQ(scaled.velocity, tension().velocity);
+  EXPECT_NEAR(scaled.time_step, 2 * tension().time_step, 1e-3 * scaled.time_step);
+  EXPECT_NEAR(scaled.peak_stress, tension().peak_stress, 1e-4 * scaled.peak_stress);
+  EXPECT_NEAR(scaled.peak_strain, tension().peak_strain, 1e-3 * scaled.peak_strain);
+  EXPECT_NEAR(scaled.young_modulus, tension().young_modulus, 1e-4 * scaled.young_modulus);
+}
+
 TEST(Ends, FixedOnesGiveAHigherCompressiveStrengthThanFreeOnes) {
   UniaxialOptions options;
   options.ends = EndCondition::fixed;
