@@ -9,12 +9,12 @@ namespace {
 // Rates of one core of an AMD EPYC (Zen 5, AVX-512), rounded: what docs/studies.md says of them comes from
 // here.
 constexpr double seconds_per_element_step = 6e-8;  // links, contacts and bookkeeping
-constexpr double seconds_per_packed_element = 3e-4;
-constexpr double seconds_per_solved_element = 2e-5;  // times the elements along the specimen: iterations
-constexpr double bytes_per_element = 6000;
-constexpr double bytes_per_process = 20e6;
+constexpr double seconds_per_packed_element = 3e-5;
+constexpr double seconds_per_solved_element = 2e-6;  // times the elements along the specimen: iterations
+constexpr double bytes_per_element = 2000;           // 1300 measured, with curve and fields
+constexpr double bytes_per_task = 25e6;
 /// The critical time step over (element size / wave speed), and the part of it that a test takes.
-constexpr double critical_share = 0.49;
+constexpr double critical_share = 0.56;
 
 specimens::Specimen nominal(const specimens::PackingOptions& packing) {
   specimens::Specimen specimen;
@@ -24,7 +24,7 @@ specimens::Specimen nominal(const specimens::PackingOptions& packing) {
 }
 
 double memory(const specimens::PackingOptions& specimen) {
-  return bytes_per_process + bytes_per_element * static_cast<double>(specimen.elements);
+  return bytes_per_task + bytes_per_element * static_cast<double>(specimen.elements);
 }
 
 }  // namespace
