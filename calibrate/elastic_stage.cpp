@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
 
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/core/parallel.h"
 #include "specimens/virtual_tests/elastic.h"
 
 namespace calibrate {
@@ -80,19 +80,8 @@ double ratio_for(const std::vector<ElasticPoint>& mean, double wanted) {
 std::vector<std::vector<ElasticPoint>> responses(const std::vector<specimens::Specimen>& specimens,
                                                  const std::vector<double>& ratios, int threads) {
   std::vector<std::vector<ElasticPoint>> all(specimens.size());
-  std::vector<std::exception_ptr> failures(specimens.size());
-  const auto count = static_cast<std::ptrdiff_t>(specimens.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const auto s = static_cast<std::size_t>(k);
-    try {
-      all[s] = elastic_response(specimens[s], ratios);
-    } catch (...) {
-      failures[s] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  dem::for_each_in_parallel(specimens.size(), threads,
+                            [&](std::size_t k) { all[k] = elastic_response(specimens[k], ratios); });
   return all;
 }
 

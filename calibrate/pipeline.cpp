@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
 
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/core/parallel.h"
 #include "specimens/extract.h"
 #include "specimens/specimen_file.h"
 #include "specimens/virtual_tests/elastic.h"
@@ -23,41 +23,25 @@ struct SpecimenSet {
   std::vector<std::string> labels;
 };
 
-template <class Make>
-void fill_in_parallel(std::vector<Specimen>& specimens, int threads, Make&& make) {
-  std::vector<std::exception_ptr> failures(specimens.size());
-  const auto count = static_cast<std::ptrdiff_t>(specimens.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    try {
-      specimens[static_cast<std::size_t>(k)] = make(static_cast<std::size_t>(k));
-    } catch (...) {
-      failures[static_cast<std::size_t>(k)] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
-
 SpecimenSet make_set(const CalibrationCase& wanted, const std::vector<std::uint64_t>& seeds,
                      const std::vector<dem::Vec3>& centres, int threads) {
   SpecimenSet set;
   if (wanted.structure.empty()) {
     for (const std::uint64_t seed : seeds) set.labels.push_back(fmt::format("seed {}", seed));
     set.specimens.resize(seeds.size());
-    fill_in_parallel(set.specimens, threads, [&](std::size_t k) {
+    dem::for_each_in_parallel(seeds.size(), threads, [&](std::size_t k) {
       specimens::PackingOptions packing = wanted.packing;
       packing.seed = seeds[k];
       packing.threads = 1;
-      return specimens::make_specimen(packing);
+      set.specimens[k] = specimens::make_specimen(packing);
     });
   } else {
     const Specimen structure = specimens::read_specimen(wanted.structure);
     for (const dem::Vec3& c : centres)
       set.labels.push_back(fmt::format("cut at ({:.4g}, {:.4g}, {:.4g}) m", c.x(), c.y(), c.z()));
     set.specimens.resize(centres.size());
-    fill_in_parallel(set.specimens, threads, [&](std::size_t k) {
-      return specimens::extract(structure, wanted.packing.shape, centres[k], wanted.packing.size);
+    dem::for_each_in_parallel(centres.size(), threads, [&](std::size_t k) {
+      set.specimens[k] = specimens::extract(structure, wanted.packing.shape, centres[k], wanted.packing.size);
     });
   }
   return set;
@@ -117,19 +101,9 @@ void choose_start(const CalibrationCase& wanted, dem::MaterialCard& card) {
 std::vector<virtual_tests::ElasticResult> elastic_results(const std::vector<Specimen>& specimens,
                                                           const dem::MaterialCard& card, int threads) {
   std::vector<virtual_tests::ElasticResult> results(specimens.size());
-  std::vector<std::exception_ptr> failures(specimens.size());
-  const auto count = static_cast<std::ptrdiff_t>(specimens.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const auto s = static_cast<std::size_t>(k);
-    try {
-      results[s] = virtual_tests::run_elastic(specimens[s], card);
-    } catch (...) {
-      failures[s] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  dem::for_each_in_parallel(specimens.size(), threads, [&](std::size_t k) {
+    results[k] = virtual_tests::run_elastic(specimens[k], card);
+  });
   return results;
 }
 

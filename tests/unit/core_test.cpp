@@ -4,9 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/core/parallel.h"
 #include "libdem/core/random.h"
 #include "libdem/core/sha256.h"
 #include "libdem/core/units.h"
@@ -75,4 +78,21 @@ TEST(AtomicFile, LeavesTheOldFileWhenWritingFails) {
   EXPECT_EQ(content, "old");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
   std::filesystem::remove_all(folder);
+}
+
+TEST(Parallel, CallsEachOnceAndThrowsWhatTheFirstThrew) {
+  std::vector<int> calls(50, 0);
+  dem::for_each_in_parallel(50, 3, [&](std::size_t k) { ++calls[k]; });
+  EXPECT_EQ(calls, std::vector<int>(50, 1));
+  calls.assign(50, 0);
+  try {
+    dem::for_each_in_parallel(50, 3, [&](std::size_t k) {
+      ++calls[k];
+      if (k % 20 == 7) throw dem::RunError(std::to_string(k));
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const dem::RunError& error) {
+    EXPECT_STREQ(error.what(), "7");
+  }
+  EXPECT_EQ(calls, std::vector<int>(50, 1)) << "the others go on";
 }
