@@ -113,6 +113,21 @@ std::vector<ElasticPoint> elastic_response(const specimens::Specimen& specimen,
   return points;
 }
 
+MicroMacroFit fit_micro_macro(const std::vector<ElasticPoint>& points) {
+  MicroMacroFit fit;
+  const dem::Vec3 abc = solve(points, &fit.covariance);
+  fit.alpha = abc[0], fit.beta = abc[1], fit.gamma = abc[2];
+  for (const ElasticPoint& p : points) {
+    const double r = p.shear_ratio, e = (fit.beta + fit.gamma * r) / (fit.alpha + r) / p.stiffness - 1;
+    const double n = (1 - r) / (fit.alpha + r) - p.poisson_ratio;
+    fit.stiffness_rms += e * e / static_cast<double>(points.size());
+    fit.poisson_rms += n * n / static_cast<double>(points.size());
+  }
+  fit.stiffness_rms = std::sqrt(fit.stiffness_rms);
+  fit.poisson_rms = std::sqrt(fit.poisson_rms);
+  return fit;
+}
+
 ElasticFit fit_elastic(const std::vector<specimens::Specimen>& specimens, double poisson_ratio, int threads) {
   ElasticFit fit;
   auto all = responses(specimens, default_ratios(), threads);
@@ -142,17 +157,11 @@ ElasticFit fit_elastic(const std::vector<specimens::Specimen>& specimens, double
     fit.by_specimen.push_back(solve(own, nullptr));
     points.insert(points.end(), own.begin(), own.end());
   }
-  const dem::Vec3 abc = solve(points, &fit.covariance);
-  fit.alpha = abc[0], fit.beta = abc[1], fit.gamma = abc[2];
-  for (const ElasticPoint& p : points) {
-    fit.points.push_back(p);
-    const double r = p.shear_ratio, e = (fit.beta + fit.gamma * r) / (fit.alpha + r) / p.stiffness - 1;
-    const double n = (1 - r) / (fit.alpha + r) - p.poisson_ratio;
-    fit.stiffness_rms += e * e / static_cast<double>(points.size());
-    fit.poisson_rms += n * n / static_cast<double>(points.size());
-  }
-  fit.stiffness_rms = std::sqrt(fit.stiffness_rms);
-  fit.poisson_rms = std::sqrt(fit.poisson_rms);
+  const MicroMacroFit all_points = fit_micro_macro(points);
+  fit.alpha = all_points.alpha, fit.beta = all_points.beta, fit.gamma = all_points.gamma;
+  fit.covariance = all_points.covariance;
+  fit.stiffness_rms = all_points.stiffness_rms, fit.poisson_rms = all_points.poisson_rms;
+  fit.points = std::move(points);
   return fit;
 }
 

@@ -21,6 +21,17 @@ std::vector<ElasticPoint> elastic_response(const specimens::Specimen& specimen,
 /// The ratios of a fit unless told otherwise: nine from 0.05 to 1.
 std::vector<double> default_ratios();
 
+/// alpha, beta, gamma of Eq. 1 and how far it misses the points that it was fitted to.
+struct MicroMacroFit {
+  double alpha = 0, beta = 0, gamma = 0;
+  dem::Mat3 covariance = dem::Mat3::Zero();   ///< of (alpha, beta, gamma)
+  double stiffness_rms = 0, poisson_rms = 0;  ///< residuals over the points: relative of E, absolute of nu
+};
+
+/// Least squares over measured points, three at least: residuals of E relative, of nu absolute (it tends to 0
+/// at Ks/Kn = 1). Throws RunError if they determine nothing.
+MicroMacroFit fit_micro_macro(const std::vector<ElasticPoint>& points);
+
 struct ElasticFit {
   double alpha = 0, beta = 0, gamma = 0;
   dem::Mat3 covariance = dem::Mat3::Zero();   ///< of (alpha, beta, gamma)

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "libdem/core/error.h"
+#include "study/statistics/sobol_indices.h"
 
 namespace study {
 namespace {
@@ -36,31 +37,38 @@ std::vector<DesignPoint> factorial(const Study& study) {
   return points;
 }
 
+/// The parameters at the shares (0 to 1) of their ranges.
+std::vector<double> values_at(const Study& study, const std::vector<double>& shares) {
+  std::vector<double> list;
+  for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    list.push_back(within_range(study.parameters[p], shares[p]));
+  return list;
+}
+
 std::vector<DesignPoint> sobol(const Study& study) {
+  require_not_too_many(study, static_cast<double>(study.points));
   const std::size_t d = study.parameters.size();
-  require_not_too_many(
-      study, static_cast<double>(study.points) * (study.sensitivity ? static_cast<double>(d) + 2 : 1));
-  const std::size_t dimensions = study.sensitivity ? 2 * d : d;
   const std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)> sequence(
-      gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(dimensions)), gsl_qrng_free);
+      gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(d)), gsl_qrng_free);
   if (!sequence) throw std::bad_alloc();
-  std::vector<double> shares(dimensions);
+  std::vector<double> shares(d);
   std::vector<DesignPoint> points;
   for (std::size_t row = 0; row < study.points; ++row) {
     gsl_qrng_get(sequence.get(), shares.data());
-    const auto values = [&](std::size_t first, std::size_t swapped) {
-      std::vector<double> list(d);
-      for (std::size_t p = 0; p < d; ++p)
-        list[p] = within_range(study.parameters[p], shares[(p == swapped ? d : first) + p]);
-      return list;
-    };
-    if (!study.sensitivity) {
-      points.push_back({values(0, d), "", row});
-      continue;
-    }
-    points.push_back({values(0, d), "A", row});
-    points.push_back({values(d, d), "B", row});
-    for (std::size_t p = 0; p < d; ++p) points.push_back({values(0, p), fmt::format("AB{}", p + 1), row});
+    points.push_back({values_at(study, shares), "", row});
+  }
+  return points;
+}
+
+std::vector<DesignPoint> sensitivity(const Study& study) {
+  const std::size_t d = study.parameters.size();
+  require_not_too_many(study, static_cast<double>(study.points) * (static_cast<double>(d) + 2));
+  const statistics::SobolDesign design = statistics::sobol_design(d, study.points);
+  std::vector<DesignPoint> points;
+  for (std::size_t k = 0; k < design.points.size(); ++k) {
+    const std::size_t row = k / design.rows_per_base_point(), place = k % design.rows_per_base_point();
+    const std::string block = place == 0 ? "A" : place == 1 ? "B" : fmt::format("AB{}", place - 1);
+    points.push_back({values_at(study, design.points[k]), block, row});
   }
   return points;
 }
@@ -75,7 +83,8 @@ double within_range(const Parameter& parameter, double share) {
 }
 
 std::vector<DesignPoint> design_points(const Study& study) {
-  return study.design == DesignKind::sobol ? sobol(study) : factorial(study);
+  if (study.design == DesignKind::factorial) return factorial(study);
+  return study.sensitivity ? sensitivity(study) : sobol(study);
 }
 
 }  // namespace study

@@ -24,8 +24,9 @@ struct DesignPoint {
 double within_range(const Parameter& parameter, double share);
 
 /// Factorial: the last parameter changes fastest; one empty point if nothing varies. Sobol: the sequence of
-/// GSL (after Antonov and Saleev) from its first point; for sensitivity N (d + 2) points, row by row A, B, AB_1
-/// ... AB_d, from a sequence in 2d dimensions. Throws InputError if there would be more than a million.
+/// GSL (after Antonov and Saleev) from its first point; for sensitivity the N (d + 2) points of
+/// statistics::sobol_design, row by row A, B, AB_1 ... AB_d. Throws InputError if there would be more than a
+/// million.
 std::vector<DesignPoint> design_points(const Study& study);
 
 }  // namespace study

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/statistics/summary.h"
+#include "study/study_statistics.h"
 
 namespace study {
 namespace {
@@ -117,6 +118,7 @@ Json result_json(const Plan& plan, const RowTable& table) {
   for (const Row& row : table.rows) all.push_back(&row);
   json["summary"] = summary_json(plan, all);
   if (plan.cards.size() > 1) json["settings"] = settings_json(plan, table);
+  json["statistics"] = statistics_json(plan, table);
   json["failed"] = Json::array();
   for (const auto& [number, message] : table.failed)
     json["failed"].push_back({{"task", number}, {"message", message}});
