@@ -5,19 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study_statistics_page.h"
+
 namespace app {
 namespace {
-
-/// "tension.peak_strain" -> the label of "peak_strain"; ft and fc are stresses.
-Label label_of_quantity(const std::string& name) {
-  if (name == "ft") return {"tensile strength", "MPa", 1e-6};
-  if (name == "fc") return {"compressive strength", "MPa", 1e-6};
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string::npos) return label_of(name);
-  Label label = label_of(name.substr(dot + 1));
-  label.words += fmt::format(" ({})", name.substr(0, dot));
-  return label;
-}
 
 report::Table summary_table(const Json& summary) {
   report::Table table{
@@ -100,6 +91,7 @@ report::Page study_page(const Json& result) {
        {report::Text{"Over all rows. The spread is the largest value less the smallest, over "
                      "the mean; the standard deviation divides by n - 1."},
         summary_table(summary)}});
+  for (report::Section& section : statistics_sections(result)) page.sections.push_back(std::move(section));
   const bool several = result.contains("settings");
   const Json& rows = list_of(result, "rows");
   for (const std::string& test : tests_of(rows))

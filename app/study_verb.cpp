@@ -19,6 +19,7 @@
 #include "study/rows.h"
 #include "study/runner.h"
 #include "study/status.h"
+#include "study/study_orientation.h"
 #include "study/study_result.h"
 
 namespace app {
@@ -126,7 +127,8 @@ Json write_study_report(const StudyOptions& options, const Invocation& invocatio
   for (const std::filesystem::path& input : plan.study.inputs) folder.add_input(input);
   for (const study::SpecimenRecipe& recipe : plan.study.specimens) folder.add_seed(recipe.packing.seed);
   const study::RowTable table = study::read_rows(plan, study::StudyFolder(options.output));
-  const Json result = study::result_json(plan, table);
+  Json result = study::result_json(plan, table);
+  result["orientation"] = study::orientation_json(plan, study::StudyFolder(options.output));
   dem::write_file_atomically(folder.file("rows.csv"), study::rows_csv(plan, table));
   folder.write(result);
   write_report(folder.path());
