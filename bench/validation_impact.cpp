@@ -125,7 +125,7 @@ struct Deflection {
   }
   double at(double when) const {
     const auto after = std::lower_bound(time.begin(), time.end(), when);
-    if (after == time.begin()) return value.front() * when / time.front();  // it starts from 0 at 0
+    if (after == time.begin()) return value.front();
     if (after == time.end()) return value.back();
     const auto k = static_cast<std::size_t>(after - time.begin());
     const double part = (when - time[k - 1]) / (time[k] - time[k - 1]);
