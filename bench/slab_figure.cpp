@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-constexpr double width = 900, panel_width = 400, panel_height = 220, left = 55, top = 50, gap = 90;
+constexpr double width = 930, panel_width = 400, panel_height = 220, left = 55, top = 50, gap = 90;
 constexpr const char* ink[2] = {"#1f5fa8", "#c2410c"};
 
 /// A step of 1, 2 or 5 times a power of ten, so that `span` has four to ten.
@@ -64,13 +64,19 @@ std::string map(const SlabPicture& model, double x0, double y0) {
   const double cell = panel_width / plan.columns;
   std::string svg =
       fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"t\">damage, {}</text>\n", x0, y0 - 8, model.name);
+  const auto colour = [&](int i, int j) -> std::string {
+    const double damage = plan.mean[static_cast<std::size_t>(j * plan.columns + i)];
+    if (damage < 0) return "#d8e6f3";
+    const int grey = 255 - static_cast<int>(std::lround(255 * std::clamp(damage, 0.0, 1.0)));
+    return fmt::format("rgb({0},{0},{0})", grey);
+  };
   for (int j = 0; j < plan.rows; ++j)
-    for (int i = 0; i < plan.columns; ++i) {
-      const double damage = plan.mean[static_cast<std::size_t>(j * plan.columns + i)];
-      const int grey = 255 - static_cast<int>(std::lround(255 * std::clamp(damage, 0.0, 1.0)));
-      svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>",
-                         x0 + cell * i, y0 + cell * (plan.rows - 1 - j), cell + 0.05, cell + 0.05,
-                         damage < 0 ? "#d8e6f3" : fmt::format("rgb({0},{0},{0})", grey));
+    for (int i = 0, end = 0; i < plan.columns; i = end) {
+      for (end = i + 1; end < plan.columns && colour(end, j) == colour(i, j);) ++end;
+      if (colour(i, j) == "rgb(255,255,255)") continue;  // the picture's own white
+      svg += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.2f}" height="{:.2f}" fill="{}"/>)",
+                         x0 + cell * i, y0 + cell * (plan.rows - 1 - j), cell * (end - i) + 0.05, cell + 0.05,
+                         colour(i, j));
     }
   return svg + fmt::format(
                    "\n<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "

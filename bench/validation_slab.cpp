@@ -207,6 +207,7 @@ void validate_slab() {
       "| model | elements | under | far | broken | | damage map | residual, m/s | warns "
       "|\n|---|---|---|---|---|---|---|---|---|\n");
   fmt::print("| coupled {}", beside(full, coupled));
+  draw(40, coupled_scene, full, coupled);
   for (const char* probe : {"under", "far"})
     rows.push_back(
         at_most(fmt::format("40 m/s: largest displacement, {}", probe), 0.05,
