@@ -19,9 +19,7 @@ using TestOf = calibrate::TestSummary SpecimenOutcome::*;
 Json card_json(const dem::MaterialCard& card) {
   Json json;
   for (const dem::CardNumber& number : dem::numbers_of(card)) json[number.key] = number.value;
-  json["unloading"] = dem::name_of(card.unloading);
-  json["cohesion_during_softening"] = dem::name_of(card.cohesion_during_softening);
-  json["broken_link_contact"] = dem::name_of(card.broken_link_contact);
+  for (const auto& [key, value] : dem::choices_of(card)) json[key] = value;
   return json;
 }
 

@@ -26,9 +26,7 @@ Json to_json(const dem::MaterialCard& card) {
   Json json;
   json["name"] = card.name;
   for (const dem::CardNumber& number : dem::numbers_of(card)) json[number.key] = number.value;
-  json["unloading"] = dem::name_of(card.unloading);
-  json["cohesion_during_softening"] = dem::name_of(card.cohesion_during_softening);
-  json["broken_link_contact"] = dem::name_of(card.broken_link_contact);
+  for (const auto& [key, value] : dem::choices_of(card)) json[key] = value;
   json["provenance"] = Json::object();
   for (const auto& [key, value] : card.provenance) json["provenance"][key] = value;
   return json;
@@ -40,9 +38,7 @@ std::string to_csv(const dem::MaterialCard& card) {
   for (const dem::CardNumber& number : dem::numbers_of(card))
     text +=
         fmt::format("{},{},{},\"{}\"\n", number.key, number.value, dem::si_unit(number.kind), number.meaning);
-  text += fmt::format("unloading,{},-,\n", dem::name_of(card.unloading));
-  text += fmt::format("cohesion_during_softening,{},-,\n", dem::name_of(card.cohesion_during_softening));
-  text += fmt::format("broken_link_contact,{},-,\n", dem::name_of(card.broken_link_contact));
+  for (const auto& [key, value] : dem::choices_of(card)) text += fmt::format("{},{},-,\n", key, value);
   return text;
 }
 

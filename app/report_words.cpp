@@ -23,6 +23,12 @@ Label label_of(const std::string& key) {
       {"alpha", {"α of Eq. 1", "", 1}},
       {"beta", {"β of Eq. 1", "", 1}},
       {"gamma", {"γ of Eq. 1", "", 1}},
+      {"link_law", {"law of the links", "", 1}},
+      {"slip_softening", {"slip softening of the cohesion ζs", "", 1}},
+      {"rolling_stiffness", {"rolling stiffness over Kn R²", "", 1}},
+      {"rolling_limit", {"rolling limit over R Fn", "", 1}},
+      {"twisting_stiffness", {"twisting stiffness over Kn R²", "", 1}},
+      {"twisting_limit", {"twisting limit over R Fn", "", 1}},
       {"unloading", {"unloading in the softening branch", "", 1}},
       {"cohesion_during_softening", {"cohesion during softening", "", 1}},
       {"broken_link_contact", {"contact distance of broken links", "", 1}},
@@ -74,7 +80,7 @@ std::string value_words(const std::string& key, const Json& value) {
   if (value.is_null()) return "–";
   if (value.is_string()) {
     std::string words = value.get<std::string>();
-    if (key == "unloading" || key == "cohesion_during_softening" || key == "broken_link_contact")
+    if (key == "link_law" || key == "unloading" || key == "cohesion_during_softening" || key == "broken_link_contact")
       std::replace(words.begin(), words.end(), '_', ' ');
     return words;
   }

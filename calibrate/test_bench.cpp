@@ -79,11 +79,7 @@ TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, TestProtoco
 
 std::string TestBench::key(std::size_t specimen, const dem::MaterialCard& card,
                            const virtual_tests::UniaxialOptions& o) const {
-  std::string text = specimen_hashes[specimen];
-  for (const dem::CardNumber& number : dem::numbers_of(card))
-    text += fmt::format("|{}={:a}", number.key, number.value);
-  text += fmt::format("|{}|{}|{}", dem::name_of(card.unloading), dem::name_of(card.cohesion_during_softening),
-                      dem::name_of(card.broken_link_contact));
+  std::string text = specimen_hashes[specimen] + "|" + dem::identity_text(card);
   text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
                       dem::name_of(o.ends), o.axis, o.expected_strength, o.velocity, o.rate, o.damping,
                       o.time_step_fraction, o.stop_at, o.max_strain);

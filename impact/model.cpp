@@ -207,7 +207,7 @@ std::vector<ProbePlace> place_probes(const Scene& scene, const ImpactModel& mode
 double critical_step(const Scene& scene, const ImpactModel& model) {
   const dem::Particles& particles = model.assembly.particles;
   const dem::LinkNetwork network(particles.initial_position, particles.radius, model.specimen.links,
-                                 model.assembly.law.normal_modulus, model.assembly.law.shear_ratio);
+                                 model.assembly.law);
   const double links = 2 / dem::critical_time_step(network, particles);
   double square = links * links;
   if (scene.impactor) {

@@ -16,7 +16,7 @@ inline dem::PairElement<double> element(const dem::Kinematics& k) {
   return {k.x, k.y, k.z, k.radius, k.vx, k.vy, k.vz, k.wx, k.wy, k.wz, k.weight};
 }
 
-/// Evaluates pair k, updates its history, and hands (force, kinematics) to `take`.
+/// Evaluates pair k, updates its history, and hands (force, moment, kinematics) to `take`.
 template <dem::LinkChoices choices, class Take>
 void each_pair(const dem::LinkLaw& law, const dem::Particles& particles, dem::Links& links, double time_step,
                double& sliding, Take&& take) {
@@ -24,15 +24,28 @@ void each_pair(const dem::LinkLaw& law, const dem::Particles& particles, dem::Li
     const auto i = static_cast<std::size_t>(links.a[k]), j = static_cast<std::size_t>(links.b[k]);
     const dem::PairElement<double> a = element(particles.kinematics[i]), b = element(particles.kinematics[j]);
     const dem::PairKinematics<double> pair = dem::pair_kinematics(a, b, time_step);
-    dem::PairHistory<double> history{links.max_strain[k], links.shear_x[k], links.shear_y[k], links.shear_z[k]};
-    const dem::PairForce<double> force =
-        dem::evaluate<choices>(law, pair, links.inverse_initial_distance[k], dem::interaction_area(a, b),
-                               a.radius + b.radius, time_step, history, [&](double work) { sliding += work; });
+    dem::PairHistory<double> history{links.max_strain[k], links.shear_x[k], links.shear_y[k], links.shear_z[k],
+                                     choices.moment_transfer ? links.slip[k] : 0.0};
+    const auto slid = [&](double work) { sliding += work; };
+    const double area = dem::interaction_area(a, b);
+    const dem::PairForce<double> force = dem::evaluate<choices>(
+        law, pair, links.inverse_initial_distance[k], area, a.radius + b.radius, time_step, history, slid);
+    dem::PairMoment<double> moment{};
+    if constexpr (choices.moment_transfer) {
+      dem::MomentHistory<double> moments{links.moment_x[k], links.moment_y[k], links.moment_z[k],
+                                         links.twist[k]};
+      moment =
+          dem::transfer_moment(law.moment, law.normal_modulus, a, b, pair, links.inverse_initial_distance[k],
+                               area, force.normal, time_step, moments, slid);
+      links.slip[k] = history.slip;
+      links.moment_x[k] = moments.x, links.moment_y[k] = moments.y, links.moment_z[k] = moments.z;
+      links.twist[k] = moments.twist;
+    }
     links.max_strain[k] = history.max_strain;
     links.shear_x[k] = history.shear_x;
     links.shear_y[k] = history.shear_y;
     links.shear_z[k] = history.shear_z;
-    take(k, i, j, force, pair);
+    take(k, i, j, force, moment, pair);
   }
 }
 
@@ -54,7 +67,7 @@ double step(const dem::LinkLaw& law, dem::Particles& particles, dem::Links& link
   double sliding = 0;
   each_pair<choices>(law, particles, links, time_step, sliding,
                      [&](std::size_t, std::size_t i, std::size_t j, const dem::PairForce<double>& force,
-                         const dem::PairKinematics<double>& pair) {
+                         const dem::PairMoment<double>& moment, const dem::PairKinematics<double>& pair) {
                        double* fa = particles.force[i].value;
                        double* fb = particles.force[j].value;
                        fa[0] += force.fx, fa[1] += force.fy, fa[2] += force.fz;
@@ -62,6 +75,8 @@ double step(const dem::LinkLaw& law, dem::Particles& particles, dem::Links& link
                        fa[3] += pair.arm_a * force.mx, fb[3] += pair.arm_b * force.mx;
                        fa[4] += pair.arm_a * force.my, fb[4] += pair.arm_b * force.my;
                        fa[5] += pair.arm_a * force.mz, fb[5] += pair.arm_b * force.mz;
+                       fa[3] += moment.x, fa[4] += moment.y, fa[5] += moment.z;
+                       fb[3] -= moment.x, fb[4] -= moment.y, fb[5] -= moment.z;
                      });
   for (std::size_t i = 0; i < particles.count; ++i) {
     double* velocity = &particles.kinematics[i].vx;

@@ -24,6 +24,7 @@ double evaluate_contacts(const LinkLaw& law, const Particles& particles, Links& 
   const std::size_t padded = contacts.padded(),
                     block_count = (padded + contacts_per_block - 1) / contacts_per_block;
   rows.rows.resize(padded);
+  rows.moments.resize(contacts.remembers_moments ? padded : 0);
   rows.block_sliding.resize(block_count);
   const ContactLoop loop = contact_loops().loop[law.choice()];
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
@@ -38,7 +39,10 @@ double evaluate_contacts(const LinkLaw& law, const Particles& particles, Links& 
                                    contacts.shear_x.data(),
                                    contacts.shear_y.data(),
                                    contacts.shear_z.data(),
+                                   {contacts.slip.data(), contacts.moment_x.data(), contacts.moment_y.data(),
+                                    contacts.moment_z.data(), contacts.twist.data()},
                                    rows.rows.data(),
+                                   rows.moments.data(),
                                    block * contacts_per_block,
                                    std::min(padded, (block + 1) * contacts_per_block),
                                    0};

@@ -17,6 +17,7 @@ inline constexpr std::size_t contacts_per_block = 1024;
 /// Room for what contacts do to their elements.
 struct ContactRows {
   Column<ContactRow> rows;
+  Column<SixRow> moments;  ///< empty if the law transfers none
   std::vector<double> block_sliding;
 };
 

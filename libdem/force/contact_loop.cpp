@@ -1,9 +1,12 @@
 // The loop over contacts, compiled once per instruction set.
 #include "libdem/force/contact_loop.h"
 
+#include <utility>
+
 #include "libdem/core/lanes.h"
 #include "libdem/force/lane_rows.h"
 #include "libdem/law/cohesive_link.h"
+#include "libdem/law/moment_transfer.h"
 #include "libdem/law/pair_kinematics.h"
 
 namespace dem {
@@ -19,10 +22,25 @@ void contact_loop(ContactLoopArguments& arguments) {
     const PairElement<Lanes> b = moved(gather(arguments.kinematics, arguments.b + k), arguments.time_step);
     const PairKinematics<Lanes> pair = pair_kinematics(a, b, arguments.time_step);
     PairHistory<Lanes> history{load(arguments.max_strain + k), load(arguments.shear_x + k),
-                               load(arguments.shear_y + k), load(arguments.shear_z + k)};
-    const PairForce<Lanes> force = evaluate<choices>(
-        law, pair, load(arguments.inverse_initial_distance + k), interaction_area(a, b), a.radius + b.radius,
-        arguments.time_step, history, [&](Lanes work) { sliding += work; });
+                               load(arguments.shear_y + k), load(arguments.shear_z + k), Lanes{}};
+    if constexpr (choices.moment_transfer) history.slip = load(arguments.moments.slip + k);
+    const auto slid = [&](Lanes work) { sliding += work; };
+    const Lanes inverse_initial_distance = load(arguments.inverse_initial_distance + k);
+    const Lanes area = interaction_area(a, b);
+    const PairForce<Lanes> force = evaluate<choices>(law, pair, inverse_initial_distance, area,
+                                                     a.radius + b.radius, arguments.time_step, history, slid);
+    if constexpr (choices.moment_transfer) {
+      store(arguments.moments.slip + k, history.slip);
+      MomentHistory<Lanes> moments = load_moments(arguments.moments, static_cast<std::ptrdiff_t>(k));
+      const PairMoment<Lanes> moment =
+          transfer_moment(law.moment, law.normal_modulus, a, b, pair, inverse_initial_distance, area,
+                          force.normal, arguments.time_step, moments, slid);
+      store_moments(arguments.moments, static_cast<std::ptrdiff_t>(k), moments);
+      to_rows({Lanes{}, Lanes{}, Lanes{}, moment.x, moment.y, moment.z, Lanes{}, Lanes{}},
+              [&](int lane, int offset, auto part) {
+                store_part(arguments.moment_rows[k + static_cast<std::size_t>(lane)].value + offset, part);
+              });
+    }
     store(arguments.max_strain + k, history.max_strain);
     store(arguments.shear_x + k, history.shear_x);
     store(arguments.shear_y + k, history.shear_y);
@@ -41,10 +59,10 @@ void contact_loop(ContactLoopArguments& arguments) {
 
 ContactLoops SPALL_JOIN(SPALL_ISA, _contact_loops)() {
   using namespace SPALL_ISA;
-  return {{contact_loop<LinkChoices{false, false, false}>, contact_loop<LinkChoices{true, false, false}>,
-           contact_loop<LinkChoices{false, true, false}>, contact_loop<LinkChoices{true, true, false}>,
-           contact_loop<LinkChoices{false, false, true}>, contact_loop<LinkChoices{true, false, true}>,
-           contact_loop<LinkChoices{false, true, true}>, contact_loop<LinkChoices{true, true, true}>}};
+  return []<std::size_t... number>(std::index_sequence<number...>) {
+    return ContactLoops{{contact_loop<choices_of(number)>...}};
+  }
+  (std::make_index_sequence<link_choices>());
 }
 
 }  // namespace dem

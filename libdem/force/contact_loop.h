@@ -14,6 +14,11 @@ struct alignas(64) ContactRow {
   double value[8];
 };
 
+/// The columns that a law with moments needs; null where it has none.
+struct MomentColumns {
+  double *slip, *x, *y, *z, *twist;
+};
+
 /// Plain pointers, so that code compiled for a wide machine meets no template of a library.
 struct ContactLoopArguments {
   const LinkLaw* law;
@@ -22,16 +27,18 @@ struct ContactLoopArguments {
   const std::int32_t *a, *b;
   const double* inverse_initial_distance;
   double *max_strain, *shear_x, *shear_y, *shear_z;
+  MomentColumns moments;
   ContactRow* rows;
+  SixRow* moment_rows;     ///< rolling and twisting moments on a; null where the law has none
   std::size_t begin, end;  ///< contacts [begin, end), multiples of the padding
   double sliding;          ///< out: dissipated by sliding [J]
 };
 
 using ContactLoop = void (*)(ContactLoopArguments&);
 
-/// By elastic_unloading + 2 proportional_cohesion + 4 contact_at_radii.
+/// By LinkLaw::choice.
 struct ContactLoops {
-  ContactLoop loop[8];
+  ContactLoop loop[link_choices];
 };
 
 ContactLoops baseline_contact_loops();

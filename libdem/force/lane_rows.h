@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "libdem/core/lanes.h"
+#include "libdem/law/moment_transfer.h"
 #include "libdem/law/pair_kinematics.h"
 #include "libdem/state/particles.h"
 
@@ -82,6 +83,19 @@ SPALL_INLINE PairElement<Lanes> moved(PairElement<Lanes> element, double time_st
   element.y += time_step * element.vy;
   element.z += time_step * element.vz;
   return element;
+}
+
+template <class Columns>
+SPALL_INLINE MomentHistory<Lanes> load_moments(const Columns& columns, std::ptrdiff_t at) {
+  return {load(columns.x + at), load(columns.y + at), load(columns.z + at), load(columns.twist + at)};
+}
+template <class Columns>
+SPALL_INLINE void store_moments(const Columns& columns, std::ptrdiff_t at,
+                                const MomentHistory<Lanes>& moments) {
+  store(columns.x + at, moments.x);
+  store(columns.y + at, moments.y);
+  store(columns.z + at, moments.z);
+  store(columns.twist + at, moments.twist);
 }
 
 /// Eight columns become one row of eight per lane; `take(lane, offset, part)` gets each row whole or in parts.

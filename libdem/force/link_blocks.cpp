@@ -106,7 +106,9 @@ LinkBlocks::LinkBlocks(const Links& links, std::size_t elements) {
   const std::size_t slot_count = index(first_row.back()) * group_width;
   partner.assign(slot_count, ghost + 1);
   inverse_initial_distance.assign(slot_count, 0);
-  for (Column<double>* column : {&max_strain, &shear_x, &shear_y, &shear_z}) column->assign(slot_count, 0);
+  remembers_moments = links.remembers_moments;
+  for (const HistoryColumn& history : history_columns(remembers_moments))
+    (this->*history.values).assign(slot_count, 0);
   places.resize(links.count);
   for (std::size_t group = 0; group + 1 < first_row.size(); ++group)
     for (std::size_t lane = 0; lane < group_width; ++lane) {
@@ -125,26 +127,23 @@ LinkBlocks::LinkBlocks(const Links& links, std::size_t elements) {
 }
 
 void LinkBlocks::take_histories(const Links& links) {
-  for (std::size_t k = 0; k < links.count; ++k)
-    for (const std::int32_t place : {places[k].first, places[k].second}) {
-      if (place < 0) continue;
-      const std::size_t slot = index(place >> 1);
-      const double sign = (place & 1) == 0 ? 1 : -1;
-      max_strain[slot] = links.max_strain[k];
-      shear_x[slot] = sign * links.shear_x[k];
-      shear_y[slot] = sign * links.shear_y[k];
-      shear_z[slot] = sign * links.shear_z[k];
-    }
+  for (const auto& [name, values, exchanged] : history_columns(remembers_moments)) {
+    const Column<double>& from = links.*values;
+    Column<double>& to = this->*values;
+    for (std::size_t k = 0; k < links.count; ++k)
+      for (const std::int32_t place : {places[k].first, places[k].second})
+        if (place >= 0) to[index(place >> 1)] = (place & 1) == 0 ? from[k] : exchanged * from[k];
+  }
 }
 
 void LinkBlocks::give_histories(Links& links) const {
-  for (std::size_t k = 0; k < links.count; ++k) {
-    const std::size_t slot = index(places[k].first >> 1);
-    const double sign = (places[k].first & 1) == 0 ? 1 : -1;
-    links.max_strain[k] = max_strain[slot];
-    links.shear_x[k] = sign * shear_x[slot];
-    links.shear_y[k] = sign * shear_y[slot];
-    links.shear_z[k] = sign * shear_z[slot];
+  for (const auto& [name, values, exchanged] : history_columns(remembers_moments)) {
+    const Column<double>& from = this->*values;
+    Column<double>& to = links.*values;
+    for (std::size_t k = 0; k < links.count; ++k) {
+      const std::int32_t place = places[k].first;
+      to[k] = (place & 1) == 0 ? from[index(place >> 1)] : exchanged * from[index(place >> 1)];
+    }
   }
 }
 
@@ -157,8 +156,10 @@ bool LinkBlocks::copies_agree() const {
   return std::all_of(places.begin(), places.end(), [&](const Places& p) {
     if (p.second < 0) return true;
     const std::size_t one = index(p.first >> 1), two = index(p.second >> 1);
-    return max_strain[one] == max_strain[two] && shear_x[one] == -shear_x[two] &&
-           shear_y[one] == -shear_y[two] && shear_z[one] == -shear_z[two];
+    const auto histories = history_columns(remembers_moments);
+    return std::all_of(histories.begin(), histories.end(), [&](const HistoryColumn& history) {
+      return (this->*history.values)[one] == history.exchanged * (this->*history.values)[two];
+    });
   });
 }
 

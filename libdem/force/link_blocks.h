@@ -21,7 +21,7 @@ inline constexpr std::size_t group_width = 8;
 ///
 /// Slot s = 8 * row + lane belongs to the element `owner[8 * group + lane]`; the rows of a group are
 /// [first_row[group], first_row[group + 1]). Slots left over link ghosts: they have no force.
-struct LinkBlocks {
+struct LinkBlocks : PairHistories {  // of the owner, one per slot; shear and moment on the owner
   struct Block {
     std::int32_t first_element = 0, end_element = 0;
     std::int32_t first_group = 0, end_group = 0;
@@ -34,8 +34,7 @@ struct LinkBlocks {
   // One per slot, see Links.
   Column<std::int32_t> partner;  ///< the other element
   Column<double> inverse_initial_distance;
-  Column<double> max_strain;
-  Column<double> shear_x, shear_y, shear_z;  ///< on the owner [N]
+  bool remembers_moments = false;
 
   std::size_t slots() const { return partner.size(); }
 

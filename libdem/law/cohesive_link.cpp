@@ -20,7 +20,10 @@ LinkLaw make_link_law(const MaterialCard& card) {
           .contact_slope = std::tan(card.contact_friction),
           .unloading = card.unloading,
           .cohesion_during_softening = card.cohesion_during_softening,
-          .broken_link_contact = card.broken_link_contact};
+          .broken_link_contact = card.broken_link_contact,
+          .transfers_moments = card.link_law == LinkLawKind::moment_transfer,
+          .slip_softening = card.slip_softening,
+          .moment = {card.rolling_stiffness, card.rolling_limit, card.twisting_stiffness, card.twisting_limit}};
 }
 
 namespace {

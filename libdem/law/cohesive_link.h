@@ -1,6 +1,9 @@
 // The paper's law of a pair (Fig. 1): elastic in compression, elastic then linearly softening in tension,
 // modified Mohr-Coulomb in shear; a broken pair keeps friction only. Compression is positive.
 //
+// Beside it, by choice of the card, the law with moments: cohesion then weakens with the link's plastic slip,
+// and rolling and twisting are resisted (moment_transfer.h). Everything else stays as it is.
+//
 // Parameters are stresses: a pair's forces are these times its interaction area S_int. With the normal modulus
 // C = Kn D_init / S_int, which Eq. 1 makes the same for all pairs, the yield strain T/C is the same for all
 // pairs too.
@@ -8,6 +11,7 @@
 #include <cstddef>
 
 #include "libdem/core/lanes.h"
+#include "libdem/law/moment_transfer.h"
 #include "libdem/law/pair_kinematics.h"
 #include "libdem/material/material_card.h"
 
@@ -24,15 +28,20 @@ struct LinkLaw {
   SofteningUnloading unloading = SofteningUnloading::secant;
   CohesionDuringSoftening cohesion_during_softening = CohesionDuringSoftening::constant;
   BrokenLinkContact broken_link_contact = BrokenLinkContact::initial_distance;
+  bool transfers_moments = false;  ///< the law with moments: the two below count
+  double slip_softening = 0;  ///< zeta_s [-]: cohesion is gone at a slip of zeta_s Co S_int / Ks; 0: it stays
+  MomentLaw moment;
 
   double yield_strain() const { return tensile_strength / normal_modulus; }
   double breaking_strain() const { return yield_strain() * (1 + softening); }
   bool is_broken(double max_strain) const { return max_strain >= breaking_strain(); }
-  /// The named choices as a number: elastic_unloading + 2 proportional_cohesion + 4 contact_at_radii.
+  /// Plastic slip over D_init at which the cohesion is gone.
+  double slip_strain() const { return slip_softening * cohesion / (shear_ratio * normal_modulus); }
+  /// The named choices as a number, see choices_of.
   std::size_t choice() const {
     return (unloading == SofteningUnloading::elastic ? 1u : 0u) +
            (cohesion_during_softening == CohesionDuringSoftening::proportional ? 2u : 0u) +
-           (broken_link_contact == BrokenLinkContact::radii ? 4u : 0u);
+           (broken_link_contact == BrokenLinkContact::radii ? 4u : 0u) + (transfers_moments ? 8u : 0u);
   }
 };
 
@@ -46,15 +55,22 @@ double softening_energy(const LinkLaw& law, double max_strain, double volume);
 
 /// The named choices as a compile-time constant: the loop over pairs is chosen once, outside.
 struct LinkChoices {
-  bool elastic_unloading = false, proportional_cohesion = false, contact_at_radii = false;
+  bool elastic_unloading = false, proportional_cohesion = false, contact_at_radii = false,
+       moment_transfer = false;
 };
+/// How many combinations there are, and the one of LinkLaw::choice() = `number`.
+inline constexpr std::size_t link_choices = 16;
+constexpr LinkChoices choices_of(std::size_t number) {
+  return {(number & 1u) != 0, (number & 2u) != 0, (number & 4u) != 0, (number & 8u) != 0};
+}
 
 inline namespace SPALL_ISA {
 
-/// The largest strain so far, kept once it has passed the yield strain (before that it has no effect), and F_s.
+/// The largest strain so far, kept once it has passed the yield strain (before that it has no effect), F_s, and
+/// the plastic slip over D_init, which the law with moments keeps.
 template <class Real>
 struct PairHistory {
-  Real max_strain, shear_x, shear_y, shear_z;
+  Real max_strain, shear_x, shear_y, shear_z, slip;
 };
 
 /// Force on element a and its moment per unit arm: a gets (force, arm_a * moment), b gets (-force, arm_b *
@@ -62,6 +78,7 @@ struct PairHistory {
 template <class Real>
 struct PairForce {
   Real fx, fy, fz, mx, my, mz;
+  Real normal;   ///< F_n, compression positive [N]
   bool damaged;  ///< some link has passed its yield strain: only then does the history's largest strain change
 };
 
@@ -78,6 +95,10 @@ SPALL_INLINE PairForce<Real> evaluate(const LinkLaw& law, const PairKinematics<R
 
   Real normal = -stiffness * strain;  // F_n
   Real cohesion = broadcast<Real>(law.cohesion) * area;
+  if constexpr (choices.moment_transfer) {
+    const double weakening = law.slip_softening > 0 ? 1 / law.slip_strain() : 0;
+    cohesion = cohesion * larger(zero, one - broadcast<Real>(weakening) * history.slip);
+  }
   Real slope = broadcast<Real>(law.internal_slope);
   const double yield = law.tensile_strength / law.normal_modulus;
   PairForce<Real> force;
@@ -132,10 +153,16 @@ SPALL_INLINE PairForce<Real> evaluate(const LinkLaw& law, const PairKinematics<R
     const Real mean = (one + keep) * square - (ix * tx + iy * ty + iz * tz);
     const Real spent = broadcast<Real>(0.5) * (one - keep) * mean / select(slides, shear_stiffness, one);
     slid(select(slides, spent, zero));
+    if constexpr (choices.moment_transfer)
+      history.slip = history.slip + select(slides & (cohesion > zero),
+                                           (one - keep) * root(square) / select(slides, shear_stiffness, one) *
+                                               inverse_initial_distance,
+                                           zero);
     tx = tx * keep, ty = ty * keep, tz = tz * keep;
   }
   history.shear_x = tx, history.shear_y = ty, history.shear_z = tz;
 
+  force.normal = normal;
   force.fx = tx - normal * pair.nx;
   force.fy = ty - normal * pair.ny;
   force.fz = tz - normal * pair.nz;

@@ -27,6 +27,7 @@ struct Field {
   Bound bound;
   bool required;
   const char* comment;
+  bool of_moments = false;  ///< belongs to the law that transfers moments
 };
 
 constexpr double degree = 3.14159265358979323846 / 180;
@@ -49,7 +50,23 @@ constexpr std::array fields{
     Field{"alpha", &MaterialCard::alpha, Quantity::ratio, Bound::positive, true, "Eq. 1"},
     Field{"beta", &MaterialCard::beta, Quantity::ratio, Bound::positive, true, "Eq. 1"},
     Field{"gamma", &MaterialCard::gamma, Quantity::ratio, Bound::positive, true, "Eq. 1"},
+    Field{"slip_softening", &MaterialCard::slip_softening, Quantity::ratio, Bound::from_zero, false,
+          "cohesion is gone at a slip of so many Co S/Ks; 0: it stays", true},
+    Field{"rolling_stiffness", &MaterialCard::rolling_stiffness, Quantity::ratio, Bound::from_zero, false,
+          "over Kn R^2", true},
+    Field{"rolling_limit", &MaterialCard::rolling_limit, Quantity::ratio, Bound::from_zero, false,
+          "largest rolling moment over R Fn", true},
+    Field{"twisting_stiffness", &MaterialCard::twisting_stiffness, Quantity::ratio, Bound::from_zero, false,
+          "over Kn R^2", true},
+    Field{"twisting_limit", &MaterialCard::twisting_limit, Quantity::ratio, Bound::from_zero, false,
+          "largest twisting moment over R Fn", true},
 };
+
+bool counts(const Field& field, const MaterialCard& card) {
+  return !field.of_moments || card.link_law == LinkLawKind::moment_transfer;
+}
+
+const std::vector<std::string> laws{"paper", "moment_transfer"};
 
 const std::vector<std::string> unloadings{"secant", "elastic"};
 const std::vector<std::string> cohesions{"constant", "proportional"};
@@ -69,6 +86,7 @@ struct Violation {
 
 std::optional<Violation> violation(const MaterialCard& card) {
   for (const Field& field : fields) {
+    if (!counts(field, card)) continue;
     const double value = card.*field.value;
     const double shown = field.bound == Bound::angle ? value / degree : value;
     const char* allowed = nullptr;
@@ -149,8 +167,22 @@ std::string line(const std::string& key, const std::string& value, const char* c
 std::vector<CardNumber> numbers_of(const MaterialCard& card) {
   std::vector<CardNumber> numbers;
   for (const Field& field : fields)
-    numbers.push_back({field.key, card.*field.value, field.kind, field.comment});
+    if (counts(field, card)) numbers.push_back({field.key, card.*field.value, field.kind, field.comment});
   return numbers;
+}
+
+std::vector<std::pair<std::string_view, std::string_view>> choices_of(const MaterialCard& card) {
+  return {{"link_law", name_of(card.link_law)},
+          {"unloading", name_of(card.unloading)},
+          {"cohesion_during_softening", name_of(card.cohesion_during_softening)},
+          {"broken_link_contact", name_of(card.broken_link_contact)}};
+}
+
+std::string identity_text(const MaterialCard& card) {
+  std::string text;
+  for (const CardNumber& number : numbers_of(card)) text += fmt::format("{}={:a}|", number.key, number.value);
+  for (const auto& [key, value] : choices_of(card)) text += fmt::format("{}={}|", key, value);
+  return text;
 }
 
 void set_number(MaterialCard& card, std::string_view key, double value) {
@@ -160,9 +192,13 @@ void set_number(MaterialCard& card, std::string_view key, double value) {
     for (const Field& f : fields) known.emplace_back(f.key);
     throw InputError(std::string(key), "a card has no such number", suggestion(key, known));
   }
+  if (!counts(*field, card))
+    throw InputError(std::string(key), "has no meaning in the paper's law",
+                     "take a card with link_law = \"moment_transfer\"");
   card.*field->value = value;
 }
 
+std::string_view name_of(LinkLawKind choice) { return laws[static_cast<std::size_t>(choice)]; }
 std::string_view name_of(SofteningUnloading choice) { return unloadings[static_cast<std::size_t>(choice)]; }
 std::string_view name_of(CohesionDuringSoftening choice) { return cohesions[static_cast<std::size_t>(choice)]; }
 std::string_view name_of(BrokenLinkContact choice) { return contacts[static_cast<std::size_t>(choice)]; }
@@ -176,15 +212,21 @@ MaterialCard read_card(const std::filesystem::path& file) {
   const TomlTable table = TomlTable::read(file);
   std::vector<std::string> known{"name"};
   for (const Field& field : fields) known.emplace_back(field.key);
-  for (const char* key : {"unloading", "cohesion_during_softening", "broken_link_contact", "provenance"})
+  for (const char* key :
+       {"link_law", "unloading", "cohesion_during_softening", "broken_link_contact", "provenance"})
     known.emplace_back(key);
   table.allow_only(known);
 
   MaterialCard card;
   card.name = table.text("name", card.name);
-  for (const Field& field : fields)
+  card.link_law = chosen(table, "link_law", laws, card.link_law);
+  for (const Field& field : fields) {
+    if (!counts(field, card) && table.has(field.key))
+      table.fail(field.key, "has no meaning in the paper's law",
+                 "write link_law = \"moment_transfer\" beside it, or leave it out");
     card.*field.value = field.required ? table.quantity(field.key, field.kind)
                                        : table.quantity(field.key, field.kind, card.*field.value);
+  }
   card.unloading = chosen(table, "unloading", unloadings, card.unloading);
   card.cohesion_during_softening =
       chosen(table, "cohesion_during_softening", cohesions, card.cohesion_during_softening);
@@ -202,7 +244,12 @@ std::string to_toml(const MaterialCard& card) {
       "# Material card of a discrete-element concrete. Angles of friction and local strengths are those of a "
       "link.\n";
   text += fmt::format("name = {}\n\n", toml_string(card.name));
+  const bool moments = card.link_law == LinkLawKind::moment_transfer;
+  if (moments)
+    text +=
+        line("link_law", toml_string(name_of(card.link_law)), "paper: elements roll freely; moment_transfer");
   for (const Field& field : fields) {
+    if (!counts(field, card)) continue;
     const std::string value = quantity_text(card.*field.value, field.kind);
     text += line(field.key, field.kind == Quantity::ratio ? value : toml_string(value), field.comment);
   }

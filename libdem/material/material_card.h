@@ -11,6 +11,8 @@
 
 namespace dem {
 
+/// The law of a pair: the paper's, in which elements roll freely, or the one that transfers moments.
+enum class LinkLawKind { paper, moment_transfer };
 /// How a link unloads from the softening branch: towards the origin, or parallel to the elastic loading.
 enum class SofteningUnloading { secant, elastic };
 /// Whether the link's cohesion (Co) stays whole until the link breaks, or shrinks with its remaining tensile
@@ -33,6 +35,13 @@ struct MaterialCard {
   double alpha = 3.7;                              ///< Eq. 1, Eq. 3 [-]
   double beta = 2.198;                             ///< Eq. 1, Eq. 3 [-]
   double gamma = 3.79;                             ///< Eq. 1, Eq. 3 [-]
+  LinkLawKind link_law = LinkLawKind::paper;
+  // The law that transfers moments (libdem/law/moment_transfer.h); without effect in the paper's.
+  double slip_softening = 0;        ///< zeta_s [-]: cohesion is gone at a slip of zeta_s Co S_int/Ks; 0: never
+  double rolling_stiffness = 0.25;  ///< k_r [-]: rolling stiffness over Kn R^2
+  double rolling_limit = 0.5;       ///< eta_r [-]: rolling moment at most eta_r R F_n
+  double twisting_stiffness = 0;    ///< k_t [-]: the same about the link's own axis
+  double twisting_limit = 0;        ///< eta_t [-]
   SofteningUnloading unloading = SofteningUnloading::secant;
   CohesionDuringSoftening cohesion_during_softening = CohesionDuringSoftening::constant;
   BrokenLinkContact broken_link_contact = BrokenLinkContact::initial_distance;
@@ -57,9 +66,15 @@ struct CardNumber {
   Quantity kind;
   std::string_view meaning;
 };
-/// All the numbers of a card, in the order of card.toml: for listings and exporters.
+/// All the numbers that the card's law uses, in the order of card.toml: for listings, exporters and hashes.
 std::vector<CardNumber> numbers_of(const MaterialCard& card);
 
+/// All its named choices, key and value, in the order of card.toml.
+std::vector<std::pair<std::string_view, std::string_view>> choices_of(const MaterialCard& card);
+/// Everything that physics depends on, to the last bit: what hashes are made of.
+std::string identity_text(const MaterialCard& card);
+
+std::string_view name_of(LinkLawKind choice);
 std::string_view name_of(SofteningUnloading choice);
 std::string_view name_of(CohesionDuringSoftening choice);
 std::string_view name_of(BrokenLinkContact choice);

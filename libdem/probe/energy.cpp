@@ -1,5 +1,7 @@
 #include "libdem/probe/energy.h"
 
+#include <algorithm>
+
 namespace dem {
 
 PairEnergy pair_energy(const LinkLaw& law, const Particles& particles, const Links& links) {
@@ -22,6 +24,15 @@ PairEnergy pair_energy(const LinkLaw& law, const Particles& particles, const Lin
       total.elastic +=
           0.5 * shear /
           (law.shear_ratio * law.normal_modulus * links.area[k] * links.inverse_initial_distance[k]);
+    if (links.remembers_moments) {
+      const double r = std::min(a.radius, b.radius);
+      const double unit = law.normal_modulus * links.area[k] * links.inverse_initial_distance[k] * r * r;
+      const double rolling = links.moment_x[k] * links.moment_x[k] + links.moment_y[k] * links.moment_y[k] +
+                             links.moment_z[k] * links.moment_z[k];
+      if (rolling > 0) total.elastic += 0.5 * rolling / (law.moment.rolling_stiffness * unit);
+      if (links.twist[k] != 0)
+        total.elastic += 0.5 * links.twist[k] * links.twist[k] / (law.moment.twisting_stiffness * unit);
+    }
     if (links.max_strain[k] < born_broken)
       total.softening += softening_energy(law, links.max_strain[k], volume);
   }

@@ -12,10 +12,11 @@ struct EnergyLedger {
   double external = 0;  ///< work of the platens and supports
   double initial = 0;   ///< kinetic energy at the start
   double kinetic = 0;
-  double elastic = 0;    ///< stored in the normal and shear springs
+  double elastic = 0;    ///< stored in the normal and shear springs, and in those of moments
   double softening = 0;  ///< dissipated by links that soften and break
-  double sliding = 0;    ///< dissipated by shear that slides, and by shear released when a link breaks
-  double damping = 0;    ///< dissipated by local damping
+  double sliding =
+      0;  ///< dissipated by shear that slides and moments that yield, and by what a break releases of them
+  double damping = 0;  ///< dissipated by local damping
 
   double imbalance() const { return external + initial - (kinetic + elastic + softening + sliding + damping); }
 };

@@ -2,9 +2,12 @@
 // which stay in the cache, then its elements move.
 #include "libdem/run/block_loop.h"
 
+#include <utility>
+
 #include "libdem/core/lanes.h"
 #include "libdem/force/lane_rows.h"
 #include "libdem/law/cohesive_link.h"
+#include "libdem/law/moment_transfer.h"
 #include "libdem/law/pair_kinematics.h"
 #include "libdem/motion/element_motion.h"
 
@@ -32,6 +35,7 @@ SPALL_INLINE void add_rows(SixRow* sums, const std::int32_t* element, std::int32
 constexpr std::ptrdiff_t rows_ahead = 8;
 
 /// Asks for the links of a later row. Asking past the end does no harm.
+template <bool moments>
 SPALL_INLINE void prefetch_rows(const BlockLoopArguments& arguments, std::ptrdiff_t slot) {
   __builtin_prefetch(arguments.partner + slot, 0, 3);
   __builtin_prefetch(arguments.inverse_initial_distance + slot, 0, 3);
@@ -39,6 +43,12 @@ SPALL_INLINE void prefetch_rows(const BlockLoopArguments& arguments, std::ptrdif
   __builtin_prefetch(arguments.shear_x + slot, 1, 3);
   __builtin_prefetch(arguments.shear_y + slot, 1, 3);
   __builtin_prefetch(arguments.shear_z + slot, 1, 3);
+  if constexpr (moments) {
+    for (const double* column : {arguments.moments.x, arguments.moments.y, arguments.moments.z})
+      __builtin_prefetch(column + slot, 1, 3);
+    __builtin_prefetch(arguments.moments.twist + slot, 1, 3);
+    __builtin_prefetch(arguments.moments.slip + slot, 0, 3);
+  }
 }
 
 template <LinkChoices choices>
@@ -58,20 +68,23 @@ void add_links(BlockLoopArguments& arguments) {
       for (std::int32_t row = arguments.first_row[group]; row < arguments.first_row[group + 1]; ++row) {
         const std::ptrdiff_t slot = std::ptrdiff_t{group_lanes} * row + half;
         const std::int32_t* partner = arguments.partner + slot;
-        prefetch_rows(arguments, slot + group_lanes * rows_ahead);
+        prefetch_rows<choices.moment_transfer>(arguments, slot + group_lanes * rows_ahead);
         const PairElement<Lanes> b = moved(gather(kinematics, partner), time_step);
         const PairKinematics<Lanes> pair = pair_kinematics(a, b, time_step);
         PairHistory<Lanes> history{load(arguments.max_strain + slot), load(arguments.shear_x + slot),
-                                   load(arguments.shear_y + slot), load(arguments.shear_z + slot)};
-        const PairForce<Lanes> force =
-            evaluate<choices>(law, pair, load(arguments.inverse_initial_distance + slot),
-                              interaction_area(a, b), a.radius + b.radius, time_step, history, [&](Lanes work) {
-                                for (int k = 0; k < lane_count; ++k) {  // a crossing link slides in two blocks
-                                  const bool crosses = static_cast<std::uint32_t>(partner[k] - first) >= count;
-                                  work[k] = crosses ? 0.5 * work[k] : work[k];
-                                }
-                                sliding += work;
-                              });
+                                   load(arguments.shear_y + slot), load(arguments.shear_z + slot), Lanes{}};
+        const auto slid = [&](Lanes work) {
+          for (int k = 0; k < lane_count; ++k) {  // a crossing link slides in two blocks
+            const bool crosses = static_cast<std::uint32_t>(partner[k] - first) >= count;
+            work[k] = crosses ? 0.5 * work[k] : work[k];
+          }
+          sliding += work;
+        };
+        const Lanes inverse_initial_distance = load(arguments.inverse_initial_distance + slot);
+        const Lanes area = interaction_area(a, b);
+        if constexpr (choices.moment_transfer) history.slip = load(arguments.moments.slip + slot);
+        const PairForce<Lanes> force = evaluate<choices>(law, pair, inverse_initial_distance, area,
+                                                         a.radius + b.radius, time_step, history, slid);
         if (force.damaged) [[unlikely]]
           store(arguments.max_strain + slot, history.max_strain);
         store(arguments.shear_x + slot, history.shear_x);
@@ -79,9 +92,19 @@ void add_links(BlockLoopArguments& arguments) {
         store(arguments.shear_z + slot, history.shear_z);
         fx += force.fx, fy += force.fy, fz += force.fz;
         mx += pair.arm_a * force.mx, my += pair.arm_a * force.my, mz += pair.arm_a * force.mz;
+        Lanes px = pair.arm_b * force.mx, py = pair.arm_b * force.my, pz = pair.arm_b * force.mz;
+        if constexpr (choices.moment_transfer) {
+          store(arguments.moments.slip + slot, history.slip);
+          MomentHistory<Lanes> moments = load_moments(arguments.moments, slot);
+          const PairMoment<Lanes> moment =
+              transfer_moment(law.moment, law.normal_modulus, a, b, pair, inverse_initial_distance, area,
+                              force.normal, time_step, moments, slid);
+          store_moments(arguments.moments, slot, moments);
+          mx += moment.x, my += moment.y, mz += moment.z;
+          px -= moment.x, py -= moment.y, pz -= moment.z;
+        }
         add_rows(arguments.sums, partner, first, count,
-                 {-force.fx, -force.fy, -force.fz, pair.arm_b * force.mx, pair.arm_b * force.my,
-                  pair.arm_b * force.mz, zero, zero});
+                 {-force.fx, -force.fy, -force.fz, px, py, pz, zero, zero});
       }
       add_rows(arguments.sums, owner, first, count, {fx, fy, fz, mx, my, mz, zero, zero});
     }
@@ -96,6 +119,8 @@ SPALL_INLINE void add_contacts(const BlockLoopArguments& arguments, std::int32_t
     const double sign = side == 0 ? 1 : -1, arm = row[6 + side];
     const Eight factor = {sign, sign, sign, arm, arm, arm, 0, 0};
     total += load_part<Eight>(row) * factor;
+    if (arguments.contact_moments != nullptr)
+      total += sign * load_part<Eight>(arguments.contact_moments[pair].value);
   }
 }
 
@@ -147,10 +172,10 @@ void block_loop(BlockLoopArguments& arguments) {
 
 BlockLoops SPALL_JOIN(SPALL_ISA, _block_loops)() {
   using namespace SPALL_ISA;
-  return {{block_loop<LinkChoices{false, false, false}>, block_loop<LinkChoices{true, false, false}>,
-           block_loop<LinkChoices{false, true, false}>, block_loop<LinkChoices{true, true, false}>,
-           block_loop<LinkChoices{false, false, true}>, block_loop<LinkChoices{true, false, true}>,
-           block_loop<LinkChoices{false, true, true}>, block_loop<LinkChoices{true, true, true}>}};
+  return []<std::size_t... number>(std::index_sequence<number...>) {
+    return BlockLoops{{block_loop<choices_of(number)>...}};
+  }
+  (std::make_index_sequence<link_choices>());
 }
 
 }  // namespace dem

@@ -30,9 +30,11 @@ struct BlockLoopArguments {
   const std::int32_t *owner, *first_row, *partner;
   const double* inverse_initial_distance;
   double *max_strain, *shear_x, *shear_y, *shear_z;
+  MomentColumns moments;
 
-  // The contacts, already evaluated; null when there are none.
+  // The contacts, already evaluated; null when there are none, or no moments.
   const ContactRow* contact_rows;
+  const SixRow* contact_moments;
   const std::int32_t *contact_first, *contact_entry;
 
   // Loads from outside on the block's elements, in their order: an element and six numbers each.
@@ -48,9 +50,9 @@ struct BlockLoopArguments {
 
 using BlockLoop = void (*)(BlockLoopArguments&);
 
-/// By elastic_unloading + 2 proportional_cohesion + 4 contact_at_radii.
+/// By LinkLaw::choice.
 struct BlockLoops {
-  BlockLoop loop[8];
+  BlockLoop loop[link_choices];
 };
 
 BlockLoops baseline_block_loops();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -81,13 +80,6 @@ std::vector<Vec3> vectors_of(std::span<const double> numbers) {
   return vectors;
 }
 
-/// The history of pairs by name: the columns of `Links` that a step changes.
-constexpr std::array<std::pair<const char*, Column<double> Links::*>, 4> history{
-    {{"max_strain", &Links::max_strain},
-     {"shear_x", &Links::shear_x},
-     {"shear_y", &Links::shear_y},
-     {"shear_z", &Links::shear_z}}};
-
 template <class T>
 Column<T> column(const std::vector<T>& values) {
   return Column<T>(values.begin(), values.end());
@@ -100,19 +92,21 @@ void put_contacts(ContentWriter& out, const Links& contacts) {
   out.put("contacts/b", contacts.b);
   out.put("contacts/inverse_initial_distance", contacts.inverse_initial_distance);
   out.put("contacts/area", contacts.area);
-  for (const auto& [name, member] : history) out.put(fmt::format("contacts/{}", name), contacts.*member);
+  for (const HistoryColumn& history : history_columns(contacts.remembers_moments))
+    out.put(fmt::format("contacts/{}", history.name), contacts.*history.values);
 }
 
-Links get_contacts(ContentReader& in) {
+Links get_contacts(ContentReader& in, bool remember_moments) {
   Links contacts;
+  contacts.remembers_moments = remember_moments;
   contacts.count = in.get<std::uint64_t>("contacts/count", 1)[0];
   contacts.a = column(in.get<std::int32_t>("contacts/a"));
   const std::size_t padded = contacts.a.size();
   contacts.b = column(in.get<std::int32_t>("contacts/b", padded));
   contacts.inverse_initial_distance = column(in.get<double>("contacts/inverse_initial_distance", padded));
   contacts.area = column(in.get<double>("contacts/area", padded));
-  for (const auto& [name, member] : history)
-    contacts.*member = column(in.get<double>(fmt::format("contacts/{}", name), padded));
+  for (const HistoryColumn& history : history_columns(remember_moments))
+    contacts.*history.values = column(in.get<double>(fmt::format("contacts/{}", history.name), padded));
   return contacts;
 }
 
@@ -121,7 +115,8 @@ void put_state(ContentWriter& out, const Assembly& assembly, const StepRoom& roo
   out.put("particles/kinematics", &particles.kinematics[0].x, numbers_per_row * particles.count);
   out.put("particles/rotation", flat(particles.rotation));
   out.put("particles/held", held_dofs(particles));
-  for (const auto& [name, member] : history) out.put(fmt::format("links/{}", name), assembly.links.*member);
+  for (const HistoryColumn& history : history_columns(assembly.links.remembers_moments))
+    out.put(fmt::format("links/{}", history.name), assembly.links.*history.values);
   put_contacts(out, assembly.contacts);
   const ContactDetector::Memory memory = room.detector.memory();
   out.put("detector/built_at", flat(memory.built_at));
@@ -133,7 +128,7 @@ void put_state(ContentWriter& out, const Assembly& assembly, const StepRoom& roo
 struct StateRead {
   std::vector<double> kinematics, rotation;
   std::vector<std::uint8_t> held;
-  std::array<Column<double>, history.size()> link_history;
+  PairHistories link_histories;
   Links contacts;
   ContactDetector::Memory memory;
   double max_speed = 0;
@@ -145,10 +140,11 @@ StateRead get_state(ContentReader& in, const Assembly& assembly) {
   read.kinematics = in.get<double>("particles/kinematics", numbers_per_row * elements);
   read.rotation = in.get<double>("particles/rotation", 3 * elements);
   read.held = in.get<std::uint8_t>("particles/held", 6 * elements);
-  for (std::size_t k = 0; k < history.size(); ++k)
-    read.link_history[k] =
-        column(in.get<double>(fmt::format("links/{}", history[k].first), assembly.links.padded()));
-  read.contacts = get_contacts(in);
+  const bool moments = assembly.links.remembers_moments;
+  for (const HistoryColumn& history : history_columns(moments))
+    read.link_histories.*history.values =
+        column(in.get<double>(fmt::format("links/{}", history.name), assembly.links.padded()));
+  read.contacts = get_contacts(in, moments);
   read.memory.built_at = vectors_of(in.get<double>("detector/built_at"));
   read.memory.moved_at_most = in.get<double>("detector/moved_at_most", 1)[0];
   read.max_speed = in.get<double>("max_speed", 1)[0];
@@ -166,8 +162,7 @@ void apply(StateRead&& read, Assembly& assembly, StepRoom& room) {
     }
   std::copy(read.kinematics.begin(), read.kinematics.end(), &particles.kinematics[0].x);
   particles.rotation = vectors_of(read.rotation);
-  for (std::size_t k = 0; k < history.size(); ++k)
-    assembly.links.*history[k].second = std::move(read.link_history[k]);
+  static_cast<PairHistories&>(assembly.links) = std::move(read.link_histories);
   room.link_blocks.take_histories(assembly.links);
   assembly.contacts = std::move(read.contacts);
   room.detector.restore(std::move(read.memory));

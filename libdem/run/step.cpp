@@ -34,10 +34,16 @@ struct LoadRows {
   }
 };
 
+Assembly& with_its_memory(Assembly& assembly) {
+  if (assembly.law.transfers_moments)
+    for (Links* links : {&assembly.links, &assembly.contacts}) links->remember_moments();
+  return assembly;
+}
+
 }  // namespace
 
-StepRoom::StepRoom(const Assembly& assembly)
-    : link_blocks(assembly.links, assembly.particles.count),
+StepRoom::StepRoom(Assembly& assembly)
+    : link_blocks(with_its_memory(assembly).links, assembly.particles.count),
       detector(assembly.particles, assembly.links),
       loops(chosen_block_loops()),
       next(assembly.particles.kinematics) {}
@@ -93,8 +99,12 @@ StepSums advance(Assembly& assembly, StepRoom& room, const StepOptions& options,
     arguments.shear_x = links.shear_x.data();
     arguments.shear_y = links.shear_y.data();
     arguments.shear_z = links.shear_z.data();
+    arguments.moments = {links.slip.data(), links.moment_x.data(), links.moment_y.data(), links.moment_z.data(),
+                         links.twist.data()};
     if (contacts) {
       arguments.contact_rows = room.contact_rows.rows.data();
+      arguments.contact_moments =
+          room.contact_rows.moments.empty() ? nullptr : room.contact_rows.moments.data();
       arguments.contact_first = room.contact_incidence.first.data();
       arguments.contact_entry = room.contact_incidence.entry.data();
     }
@@ -125,8 +135,8 @@ std::string state_sha256(const Assembly& assembly) {
   for (const Links* links : {&assembly.links, &assembly.contacts}) {
     for (const Column<std::int32_t>* column : {&links->a, &links->b})
       hash.add(column->data(), links->count * sizeof(std::int32_t));
-    for (const Column<double>* column : {&links->max_strain, &links->shear_x, &links->shear_y, &links->shear_z})
-      hash.add(column->data(), links->count * sizeof(double));
+    for (const HistoryColumn& history : history_columns(links->remembers_moments))
+      hash.add((links->*history.values).data(), links->count * sizeof(double));
   }
   return hash.hex();
 }

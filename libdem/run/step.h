@@ -41,7 +41,8 @@ struct StepRoom {
   std::vector<Column<SixRow>> sums;                       ///< a block's forces, one for each thread
   std::vector<std::pair<double, MotionSums>> block_sums;  ///< dissipated by sliding [J]; of the motion
 
-  explicit StepRoom(const Assembly& assembly);
+  /// Gives the assembly's pairs the columns that its law needs, if they lack them.
+  explicit StepRoom(Assembly& assembly);
 };
 
 /// Brings the histories that the room holds back into assembly.links: call it before reading them.

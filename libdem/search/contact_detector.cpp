@@ -168,16 +168,15 @@ bool ContactDetector::replace(const Particles& particles, Links& contacts,
   if (same) return false;
 
   Links fresh;
+  if (contacts.remembers_moments) fresh.remember_moments();
   for (const auto& [pair, old] : wanted) {
     const double ra = particles.radius[static_cast<std::size_t>(pair.first)],
                  rb = particles.radius[static_cast<std::size_t>(pair.second)];
     fresh.push(pair.first, pair.second, ra + rb, std::numbers::pi * std::min(ra, rb) * std::min(ra, rb),
                born_broken);
-    if (old >= 0) {
-      fresh.shear_x.back() = contacts.shear_x[static_cast<std::size_t>(old)];
-      fresh.shear_y.back() = contacts.shear_y[static_cast<std::size_t>(old)];
-      fresh.shear_z.back() = contacts.shear_z[static_cast<std::size_t>(old)];
-    }
+    if (old >= 0)
+      for (const HistoryColumn& history : history_columns(contacts.remembers_moments))
+        (fresh.*history.values).back() = (contacts.*history.values)[static_cast<std::size_t>(old)];
   }
   fresh.pad(static_cast<std::int32_t>(particles.count));
   contacts = std::move(fresh);

@@ -11,22 +11,30 @@ void Links::push(std::int32_t first, std::int32_t second, double initial_distanc
   b.push_back(second);
   inverse_initial_distance.push_back(1 / initial_distance);
   area.push_back(interaction_area);
-  max_strain.push_back(initial_max_strain);
-  for (Column<double>* column : {&shear_x, &shear_y, &shear_z}) column->push_back(0);
+  for (const HistoryColumn& history : history_columns(remembers_moments)) (this->*history.values).push_back(0);
+  max_strain.back() = initial_max_strain;
   ++count;
 }
 
 void Links::reserve(std::size_t pairs) {
   const std::size_t padded = (pairs + link_padding - 1) / link_padding * link_padding;
   for (Column<std::int32_t>* column : {&a, &b}) column->reserve(padded);
-  for (Column<double>* column : {&inverse_initial_distance, &area, &max_strain, &shear_x, &shear_y, &shear_z})
-    column->reserve(padded);
+  for (Column<double>* column : {&inverse_initial_distance, &area}) column->reserve(padded);
+  for (const HistoryColumn& history : history_columns(remembers_moments))
+    (this->*history.values).reserve(padded);
 }
 
 void Links::pad(std::int32_t ghost) {
   const std::size_t real = count;
   while (a.size() % link_padding != 0) push(ghost, ghost + 1, 1, 0);
   count = real;
+}
+
+void Links::remember_moments() {
+  if (remembers_moments) return;
+  remembers_moments = true;
+  for (const HistoryColumn& history : history_columns(true).subspan(history_columns(false).size()))
+    (this->*history.values).assign(padded(), 0);
 }
 
 void Links::clear() { *this = Links{}; }

@@ -19,6 +19,18 @@ LinkNetwork::LinkNetwork(std::span<const Vec3> centres, std::span<const double> 
   }
 }
 
+LinkNetwork::LinkNetwork(std::span<const Vec3> centres, std::span<const double> radii,
+                         std::span<const LinkGeometry> links, const LinkLaw& law)
+    : LinkNetwork(centres, radii, links, law.normal_modulus, law.shear_ratio) {
+  if (!law.transfers_moments) return;
+  for (LinkSpring& spring : springs) {
+    const double r =
+        std::min(radii[static_cast<std::size_t>(spring.a)], radii[static_cast<std::size_t>(spring.b)]);
+    spring.rolling_stiffness = law.moment.rolling_stiffness * spring.normal_stiffness * r * r;
+    spring.twisting_stiffness = law.moment.twisting_stiffness * spring.normal_stiffness * r * r;
+  }
+}
+
 void LinkNetwork::multiply(std::span<const double> displacement, std::span<double> force) const {
   std::fill(force.begin(), force.end(), 0.0);
   for (const LinkSpring& s : springs) {
@@ -42,6 +54,13 @@ void LinkNetwork::multiply(std::span<const double> displacement, std::span<doubl
     fb[0] += fx, fb[1] += fy, fb[2] += fz;
     fa[3] -= s.arm_a * mx, fa[4] -= s.arm_a * my, fa[5] -= s.arm_a * mz;
     fb[3] -= s.arm_b * mx, fb[4] -= s.arm_b * my, fb[5] -= s.arm_b * mz;
+    if (s.rolling_stiffness == 0 && s.twisting_stiffness == 0) continue;
+    const double rx = ub[3] - ua[3], ry = ub[4] - ua[4], rz = ub[5] - ua[5];
+    const double twist = (s.twisting_stiffness - s.rolling_stiffness) * (rx * nx + ry * ny + rz * nz);
+    const double tx = s.rolling_stiffness * rx + twist * nx, ty = s.rolling_stiffness * ry + twist * ny,
+                 tz = s.rolling_stiffness * rz + twist * nz;
+    fa[3] -= tx, fa[4] -= ty, fa[5] -= tz;
+    fb[3] += tx, fb[4] += ty, fb[5] += tz;
   }
 }
 

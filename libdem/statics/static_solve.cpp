@@ -29,7 +29,11 @@ std::vector<Block> preconditioner(const LinkNetwork& network, const std::vector<
       Eigen::Matrix<double, 3, 6> gradient;
       gradient.leftCols<3>() = (first ? -1.0 : 1.0) * Mat3::Identity();
       gradient.rightCols<3>() = (first ? s.arm_a : s.arm_b) * turn;
-      blocks[static_cast<std::size_t>(first ? s.a : s.b)] += gradient.transpose() * tangent * gradient;
+      Block& block = blocks[static_cast<std::size_t>(first ? s.a : s.b)];
+      block += gradient.transpose() * tangent * gradient;
+      block.bottomRightCorner<3, 3>() +=
+          s.rolling_stiffness * Mat3::Identity() +
+          (s.twisting_stiffness - s.rolling_stiffness) * s.normal * s.normal.transpose();
     }
   }
   for (std::size_t i = 0; i < network.elements; ++i) {

@@ -11,14 +11,7 @@
 namespace virtual_tests {
 namespace {
 
-std::string sha256_of(const dem::MaterialCard& card) {
-  std::string text;
-  for (const dem::CardNumber& number : dem::numbers_of(card))
-    text += fmt::format("{}={:a}|", number.key, number.value);
-  return dem::sha256_of(text + fmt::format("{}|{}|{}", dem::name_of(card.unloading),
-                                           dem::name_of(card.cohesion_during_softening),
-                                           dem::name_of(card.broken_link_contact)));
-}
+std::string sha256_of(const dem::MaterialCard& card) { return dem::sha256_of(dem::identity_text(card)); }
 
 /// All but the number of threads, on which the bits do not depend.
 std::string sha256_of(const UniaxialOptions& o) {

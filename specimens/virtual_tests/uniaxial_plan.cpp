@@ -11,8 +11,7 @@ namespace virtual_tests {
 namespace {
 
 double time_step_limit(const specimens::Specimen& specimen, const dem::Assembly& assembly) {
-  const dem::LinkNetwork network(specimen.centres, specimen.radii, specimen.links, assembly.law.normal_modulus,
-                                 assembly.law.shear_ratio);
+  const dem::LinkNetwork network(specimen.centres, specimen.radii, specimen.links, assembly.law);
   return dem::critical_time_step(network, assembly.particles);
 }
 

@@ -10,11 +10,13 @@
 
 #include "libdem/core/error.h"
 #include "libdem/core/random.h"
+#include "libdem/material/card_numbers.h"
 #include "libdem/material/material_card.h"
 #include "libdem/material/micro_macro.h"
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -141,6 +143,12 @@ TEST(MaterialCard, RefusesWithTheLineAndTheRemedy) {
   EXPECT_THAT(error_of(replaced(good, "zeta = 5", "zeta = 0")), HasSubstr("greater than 0"));
   EXPECT_THAT(error_of(good + "unloading = \"secent\"\n"),
               HasSubstr("did you mean \"secant\"? allowed: secant, elastic"));
+  EXPECT_THAT(error_of(good + "rolling_limit = 0.5\n"),
+              AllOf(HasSubstr("rolling_limit"), HasSubstr("no meaning in the paper's law"),
+                    HasSubstr("link_law = \"moment_transfer\"")));
+  EXPECT_THAT(error_of(good + "link_law = \"moment_transfer\"\nrolling_limit = -0.5\n"),
+              AllOf(HasSubstr("rolling_limit"), HasSubstr("0 or more")));
+  EXPECT_THAT(error_of(good + "link_law = \"moments\"\n"), HasSubstr("allowed: paper, moment_transfer"));
   EXPECT_THAT(error_of(good + "zeta = 6\n"), HasSubstr("this is not TOML"));
   EXPECT_THAT(error_of("E = \n"), HasSubstr(":1"));
   EXPECT_THAT(error_of(""), HasSubstr("the file is empty"));
@@ -161,18 +169,39 @@ TEST(MaterialCard, ComesBackWithTheSameBits) {
     card.beta = random.uniform(2, 3);
     card.unloading = dem::SofteningUnloading::elastic;
     card.broken_link_contact = dem::BrokenLinkContact::radii;
+    if (k % 2 == 1) {
+      card.link_law = dem::LinkLawKind::moment_transfer;
+      card.slip_softening = random.uniform(0, 40);
+      card.rolling_stiffness = random.uniform(0, 1);
+      card.rolling_limit = random.uniform(0, 1);
+      card.twisting_stiffness = random.uniform(0, 1);
+      card.twisting_limit = random.uniform(0, 1);
+    }
     card.name = "quotes \" and \\ and\nlines";
     card.provenance = {{"zeta first", "a \"b\""}, {"alpha_second", "tab\there"}};
     const auto file = write_card(dem::to_toml(card));
     const dem::MaterialCard back = dem::read_card(file);
     std::filesystem::remove(file);
     expect_same_bits(card, back);
+    EXPECT_EQ(dem::identity_text(back), dem::identity_text(card));
     EXPECT_EQ(back.unloading, card.unloading);
     EXPECT_EQ(back.cohesion_during_softening, card.cohesion_during_softening);
     EXPECT_EQ(back.broken_link_contact, card.broken_link_contact);
     EXPECT_EQ(back.name, card.name);
     EXPECT_EQ(back.provenance, card.provenance);
   }
+}
+
+TEST(MaterialCard, NamesTheMomentsNumbersOnlyWhereItsLawUsesThem) {
+  dem::MaterialCard card;
+  EXPECT_THAT(dem::to_toml(card), Not(HasSubstr("rolling")));
+  EXPECT_THAT(dem::identity_text(card), Not(HasSubstr("rolling")));
+  EXPECT_THROW(dem::set_number(card, "slip_softening", 3), dem::InputError);
+  card.link_law = dem::LinkLawKind::moment_transfer;
+  EXPECT_THAT(dem::to_toml(card),
+              AllOf(HasSubstr("link_law = \"moment_transfer\""), HasSubstr("rolling_limit = 0.5")));
+  EXPECT_NO_THROW(dem::set_number(card, "slip_softening", 3));
+  EXPECT_EQ(card.slip_softening, 3);
 }
 
 TEST(MaterialCard, IsWrittenInUnitsThatPeopleUse) {

@@ -124,23 +124,27 @@ TEST_F(Resume, TensionStoppedAtAnyStepGivesTheSameBits) {
 }
 
 TEST_F(Resume, AfterLinksBrokeAndContactsFormedManyStopsOnAnyThreadsGiveTheSameBits) {
-  UniaxialOptions options = options_for(Loading::compression);
-  options.ends = dem::EndCondition::fixed;
-  const UniaxialResult whole = run(options);
-  RecordProperty("steps", std::to_string(whole.steps));
-  RecordProperty("contacts", std::to_string(whole.contacts));
-  ASSERT_GT(whole.broken_links, 500u);
-  ASSERT_GT(whole.contacts, 0u) << "raise the strain";
-  ASSERT_GT(whole.detector_rebuilds, 3);
-  for (const long part : {1L, 2L, 3L, 4L}) {
-    options.threads = part % 2 == 0 ? 2 : 1;
-    run_to(whole.steps * part / 5 + part, options);
+  for (const dem::LinkLawKind law : {dem::LinkLawKind::paper, dem::LinkLawKind::moment_transfer}) {
+    card.link_law = law;
+    std::filesystem::remove(file);
+    UniaxialOptions options = options_for(Loading::compression);
+    options.ends = dem::EndCondition::fixed;
+    const UniaxialResult whole = run(options);
+    RecordProperty("steps", std::to_string(whole.steps));
+    RecordProperty("contacts", std::to_string(whole.contacts));
+    ASSERT_GT(whole.broken_links, 500u);
+    ASSERT_GT(whole.contacts, 0u) << "raise the strain";
+    ASSERT_GT(whole.detector_rebuilds, 3);
+    for (const long part : {1L, 2L, 3L, 4L}) {
+      options.threads = part % 2 == 0 ? 2 : 1;
+      run_to(whole.steps * part / 5 + part, options);
+    }
+    options.threads = 2;
+    run_to(whole.steps - 3, options);
+    EXPECT_GT(dem::Hdf5File::open(file).read<std::uint64_t>("contacts/count")[0], 0u);
+    options.threads = 1;
+    expect_same_bits(go_on(options), whole);
   }
-  options.threads = 2;
-  run_to(whole.steps - 3, options);
-  EXPECT_GT(dem::Hdf5File::open(file).read<std::uint64_t>("contacts/count")[0], 0u);
-  options.threads = 1;
-  expect_same_bits(go_on(options), whole);
 }
 
 TEST_F(Resume, ASignalStopsAfterTheStepAndACheckpointIsWrittenNowAndThen) {

@@ -39,6 +39,15 @@ inline dem::LinkLaw elastic_law() {
   return law;
 }
 
+/// The same law with moments: all of its numbers at work.
+inline dem::LinkLaw with_moments(dem::LinkLaw law) {
+  law.transfers_moments = true;
+  law.slip_softening = 4;
+  law.moment = {
+      .rolling_stiffness = 0.25, .rolling_limit = 0.5, .twisting_stiffness = 0.1, .twisting_limit = 0.2};
+  return law;
+}
+
 /// An assembly with its room and its ledger.
 struct Scene {
   dem::Assembly assembly;
@@ -188,7 +197,7 @@ inline std::vector<dem::LinkGeometry> geometry_of(const dem::Links& links) {
 
 inline dem::LinkNetwork network_of(const dem::Assembly& assembly) {
   return {assembly.particles.initial_position, assembly.particles.radius, geometry_of(assembly.links),
-          assembly.law.normal_modulus, assembly.law.shear_ratio};
+          assembly.law};
 }
 
 inline double critical_step_of(const dem::Assembly& assembly) {
