@@ -157,7 +157,8 @@ Json history_json(const std::vector<calibrate::StageStep>& history) {
                     {"worst", step.worst},
                     {"T", step.card.tensile_strength},
                     {"zeta", step.card.softening},
-                    {"Co", step.card.cohesion}});
+                    {"Co", step.card.cohesion},
+                    {"slip_softening", step.card.slip_softening}});
   return list;
 }
 

@@ -255,9 +255,11 @@ std::vector<report::Chart> progress_charts(const Json& result) {
       "Each stage counts its own targets: {}. At or below 1, all of them are within their tolerance.", stages);
 
   int colour = 0;
-  for (const auto& [key, name] : {std::pair("T", "T"), std::pair("zeta", "ζ"), std::pair("Co", "Co")}) {
+  for (const auto& [key, name] : {std::pair("T", "T"), std::pair("zeta", "ζ"), std::pair("Co", "Co"),
+                                  std::pair("slip_softening", "ζs")}) {
     Series line = named(name, Series::Kind::line, colour++);
     const double last = number(result["card"], key);
+    if (!(last > 0)) continue;
     bool moves = false;
     for (std::size_t k = 0; k < history.size(); ++k) {
       add_point(line, static_cast<double>(k) + 1, number(history[k], key) / last);

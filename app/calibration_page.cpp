@@ -28,6 +28,7 @@ std::string signed_number(double value, int decimals) {
 std::string symbol(const std::string& key) {
   if (key == "zeta") return "ζ";
   if (key == "nu") return "ν";
+  if (key == "slip_softening") return "ζs";
   return key;
 }
 
@@ -195,7 +196,7 @@ report::Table card_table(const Json& result) {
       if (errors.size() == 3 && errors[place].is_number())
         uncertainty = "± " + report::number_text(errors[place].get<double>(), 2);
       remark = "least squares over Ks/Kn; standard error";
-    } else if (key == "T" || key == "zeta" || key == "Co") {
+    } else if (key == "T" || key == "zeta" || key == "Co" || key == "slip_softening") {
       if (const Json* parameter = parameter_of(result, key); parameter != nullptr) {
         const double u = number(*parameter, "relative_uncertainty");
         uncertainty = u < 0.5 ? "± " + percent(u) : "× or ÷ " + report::number_text(std::exp(u), 2);

@@ -94,7 +94,8 @@ Json result_of(const virtual_tests::UniaxialResult& found, const virtual_tests::
                const specimens::Specimen& specimen) {
   Json result;
   result["test"] = virtual_tests::name_of(asked.loading);
-  result["ends"] = asked.ends == dem::EndCondition::free ? "free" : "fixed";
+  result["ends"] = dem::name_of(asked.ends);
+  if (asked.ends == dem::EndCondition::rough) result["platen_friction"] = asked.platen_friction;
   result["axis"] = std::string(1, "xyz"[asked.axis]);
   result["peak_stress"] = found.peak_stress;
   result["peak_strain"] = found.peak_strain;
@@ -140,7 +141,7 @@ virtual_tests::UniaxialResult run_or_stop(const TestOptions& options, const Invo
 int run_uniaxial(const TestOptions& options, const Invocation& invocation, virtual_tests::Loading loading) {
   virtual_tests::UniaxialOptions asked = options.uniaxial;
   asked.loading = loading;
-  asked.ends = options.ends == "free" ? dem::EndCondition::free : dem::EndCondition::fixed;
+  asked.ends = dem::end_condition(options.ends);
   asked.velocity = positive(options.velocity, dem::Quantity::velocity, "--velocity");
   asked.max_strain = positive(options.max_strain, dem::Quantity::ratio, "--max-strain");
   asked.threads = options.common.thread_count();
@@ -202,8 +203,14 @@ void add_test(CLI::App& root, Invocation& invocation) {
         add(tension ? "tension" : "compression",
             fmt::format("Uniaxial {} to past the peak, quasi-static", tension ? "tension" : "compression"),
             [options, &invocation, loading] { return run_uniaxial(*options, invocation, loading); });
-    verb->add_option("--ends", options->ends, "Platens: free or fixed laterally, default free")
-        ->check(CLI::IsMember({"free", "fixed"}));
+    verb->add_option("--ends", options->ends,
+                     tension ? "Ends: free or fixed laterally, default free"
+                             : "Platens: free, fixed (glued) or rough (dry friction), default free")
+        ->check(CLI::IsMember(dem::end_condition_names()));
+    if (!tension)
+      verb->add_option("--platen-friction", options->uniaxial.platen_friction,
+                       "Coefficient of friction of rough platens, default 0.2")
+          ->check(number_between(0, 2));
     verb->add_option(
         "--velocity", options->velocity,
         "Speed at which the platens approach or part, as \"0.02 m/s\" (default: slow enough for the card)");

@@ -26,7 +26,8 @@ struct Parameter {
 /// How the press of one kind of test is imitated.
 struct PressOptions {
   dem::EndCondition ends = dem::EndCondition::free;
-  double rate = 0;  ///< see UniaxialOptions; 0: its default
+  double platen_friction = 0.2;  ///< of rough platens
+  double rate = 0;               ///< see UniaxialOptions; 0: its default
 };
 
 struct CalibrationCase {
@@ -39,6 +40,7 @@ struct CalibrationCase {
   std::vector<dem::Vec3> fit_centres, check_centres;
   dem::MaterialCard card;  ///< density, friction angles, named choices; E and nu are the targets
   Parameter tensile_strength, cohesion, softening;  ///< T [Pa], Co [Pa], zeta [-]
+  Parameter slip_softening;                         ///< zeta_s [-], of the law that transfers moments
   PressOptions tension, compression;
   double damping = 0.3;
   std::vector<Target> targets;

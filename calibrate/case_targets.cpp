@@ -116,8 +116,9 @@ void read_code(const TomlTable& table, CalibrationCase& result) {
       {Quantity::tensile_strength, &concrete.fctm},
       {Quantity::compressive_strength, &concrete.fcm},
       {Quantity::compression_peak_strain, &concrete.strain_at_peak},
+      {Quantity::tension_peak_strain, &concrete.tension_strain_at_peak},
       {Quantity::fracture_energy, &concrete.fracture_energy}};
-  const std::vector<std::string> allowed{"E", "nu", "ft", "fc", "fc_strain", "Gf"};
+  const std::vector<std::string> allowed{"E", "nu", "ft", "ft_strain", "fc", "fc_strain", "Gf"};
   std::vector<std::string> use{"E", "nu", "ft", "fc"};
   if (table.has("use")) use = table.texts("use");
   for (const std::string& name : use) {

@@ -19,6 +19,10 @@ std::string remedy(const std::string& name) {
   if (name == "Co")
     return "give the strain at the compression peak or a compression curve past its peak, a confined test, or "
            "fix Co in the case";
+  if (name == "slip_softening")
+    return "give the strain at the compression peak or a compression curve past its peak, or fix "
+           "slip_softening in "
+           "the case";
   return "give a tensile strength, or fix T in the case";
 }
 
@@ -32,8 +36,7 @@ bool Identifiability::all_determined() const {
 Identifiability assess(const CalibrationCase& wanted, TestBench& bench, const dem::MaterialCard& card,
                        double step) {
   Identifiability result;
-  std::vector<ParameterSlot> slots{slot_T(), slot_zeta(), slot_Co()};
-  std::erase_if(slots, [&](const ParameterSlot& slot) { return !(wanted.*slot.in_case).free; });
+  const std::vector<ParameterSlot> slots = free_slots(wanted);
   Round round;
   for (const Target& target : wanted.targets) {
     round.tension = round.tension || needs_tension(target.quantity);

@@ -61,6 +61,7 @@ TestProtocol protocol_for(const CalibrationCase& wanted) {
   protocol.tension.stop_at = follow ? 0.08 : 0.7;
   protocol.compression.loading = virtual_tests::Loading::compression;
   protocol.compression.ends = wanted.compression.ends;
+  protocol.compression.platen_friction = wanted.compression.platen_friction;
   protocol.compression.rate = wanted.compression.rate;
   protocol.compression.damping = wanted.damping;
   protocol.compression.expected_strength = value(Quantity::compressive_strength);
@@ -82,7 +83,9 @@ void choose_start(const CalibrationCase& wanted, dem::MaterialCard& card) {
                                  wanted.target(Quantity::fracture_energy) != nullptr ||
                                  wanted.target(Quantity::tension_curve) != nullptr;
   card.softening = wanted.softening.value;
-  if (!wanted.softening.given && !tension_sees_zeta && ft != nullptr && fc != nullptr) {
+  const bool moments = card.link_law == dem::LinkLawKind::moment_transfer;
+  card.slip_softening = wanted.slip_softening.value;
+  if (!moments && !wanted.softening.given && !tension_sees_zeta && ft != nullptr && fc != nullptr) {
     const bool fixed = wanted.compression.ends == dem::EndCondition::fixed;
     card.softening = std::clamp(
         1.1 * log_interpolate(fixed ? zeta_by_ratio_fixed : zeta_by_ratio_free, fc->value / ft->value), 1.0,
@@ -94,7 +97,13 @@ void choose_start(const CalibrationCase& wanted, dem::MaterialCard& card) {
                                                         : expected / expected_strength_ratio(card.softening);
   card.tensile_strength =
       std::clamp(card.tensile_strength, wanted.tensile_strength.low, wanted.tensile_strength.high);
-  card.cohesion = wanted.cohesion.given ? wanted.cohesion.value : 5 * card.tensile_strength;
+  // With moments and slip softening of 16, fc is about 8 T (Co/T)^0.6, half as much again without slip
+  // softening.
+  const double likely_cohesion =
+      moments && fc != nullptr
+          ? card.tensile_strength * std::pow(fc->value / (5 * card.tensile_strength), 1 / 0.6)
+          : 5 * card.tensile_strength;
+  card.cohesion = wanted.cohesion.given ? wanted.cohesion.value : likely_cohesion;
   card.cohesion = std::clamp(card.cohesion, wanted.cohesion.low, wanted.cohesion.high);
 }
 
@@ -258,8 +267,10 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
   const StageWatcher watch = [&](const StageStep& step) {
     result.history.push_back(step);
     std::string detail =
-        fmt::format("T {:.3g} MPa, zeta {:.3g}, Co {:.3g} MPa:", step.card.tensile_strength / 1e6,
+        fmt::format("T {:.3g} MPa, zeta {:.3g}, Co {:.3g} MPa", step.card.tensile_strength / 1e6,
                     step.card.softening, step.card.cohesion / 1e6);
+    if (wanted.slip_softening.free) detail += fmt::format(", slip softening {:.3g}", step.card.slip_softening);
+    detail += ':';
     for (const TargetResult& r : step.targets) {
       const Display d = display(r.target.quantity);
       detail += fmt::format(" {} {:.3g}/{:.3g}", name_of(r.target.quantity), r.achieved / d.scale,
@@ -286,11 +297,11 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
 
   result.stages.push_back(fit_stage("tension", wanted, bench, card, tension_slots, tension_targets,
                                     {true, false}, {.good_enough = 0.25, .max_evaluations = 15}, watch));
-  result.stages.push_back(fit_stage("compression", wanted, bench, card, {slot_Co()}, compression_targets,
-                                    {false, true},
+  result.stages.push_back(fit_stage("compression", wanted, bench, card, {slot_Co(), slot_zeta_s()},
+                                    compression_targets, {false, true},
                                     {.first_radius = 1, .good_enough = 0.25, .max_evaluations = 8}, watch));
-  result.stages.push_back(fit_stage("closing", wanted, bench, card, {slot_T(), slot_zeta(), slot_Co()},
-                                    all_targets, both, {.good_enough = 0.4, .max_evaluations = 20}, watch));
+  result.stages.push_back(fit_stage("closing", wanted, bench, card, free_slots(wanted), all_targets, both,
+                                    {.good_enough = 0.4, .max_evaluations = 20}, watch));
 
   report("sensitivity", 0, 0, "what the data determine");
   result.identifiability = assess(wanted, bench, card);

@@ -19,13 +19,16 @@ std::vector<TargetResult> compare(const CalibrationCase& wanted, const RoundResu
 
 /// One strength parameter of a card by its place in the case.
 struct ParameterSlot {
-  const char* name;  ///< "T", "zeta", "Co"
+  const char* name;  ///< as in card.toml
   double dem::MaterialCard::*in_card;
   Parameter CalibrationCase::*in_case;
 };
 const ParameterSlot& slot_T();
 const ParameterSlot& slot_zeta();
 const ParameterSlot& slot_Co();
+const ParameterSlot& slot_zeta_s();
+/// All of them that are free in the case.
+std::vector<ParameterSlot> free_slots(const CalibrationCase& wanted);
 
 /// Linear in the logarithms between the points of a table, extended at its ends.
 double log_interpolate(const std::vector<std::pair<double, double>>& table, double at);

@@ -80,9 +80,9 @@ TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, TestProtoco
 std::string TestBench::key(std::size_t specimen, const dem::MaterialCard& card,
                            const virtual_tests::UniaxialOptions& o) const {
   std::string text = specimen_hashes[specimen] + "|" + dem::identity_text(card);
-  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
-                      dem::name_of(o.ends), o.axis, o.expected_strength, o.velocity, o.rate, o.damping,
-                      o.time_step_fraction, o.stop_at, o.max_strain);
+  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
+                      dem::name_of(o.ends), o.axis, o.platen_friction, o.expected_strength, o.velocity, o.rate,
+                      o.damping, o.time_step_fraction, o.stop_at, o.max_strain);
   return dem::sha256_of(text);
 }
 

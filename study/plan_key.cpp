@@ -26,10 +26,10 @@ std::string task_key(const SpecimenRecipe& recipe, const dem::MaterialCard& card
     return dem::sha256_of(
         fmt::format("{}|elastic|{}|{:a}|{:a}", text, o.axis, law.normal_modulus, law.shear_ratio));
   }
-  text += "|" + dem::identity_text(card);
-  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
-                      dem::name_of(o.ends), o.axis, o.expected_strength, o.velocity, o.rate, o.damping,
-                      o.time_step_fraction, o.stop_at, o.max_strain);
+  text += fmt::format("|{}", dem::identity_text(card));
+  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
+                      dem::name_of(o.ends), o.axis, o.platen_friction, o.expected_strength, o.velocity, o.rate,
+                      o.damping, o.time_step_fraction, o.stop_at, o.max_strain);
   return dem::sha256_of(text);
 }
 

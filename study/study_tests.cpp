@@ -39,8 +39,8 @@ double within(const TomlTable& table, const char* key, double fallback, double l
 }
 
 VirtualTest read_test(const TomlTable& table) {
-  table.allow_only({"name", "kind", "ends", "axis", "velocity", "rate", "expected_strength", "damping",
-                    "stop_at", "max_strain"});
+  table.allow_only({"name", "kind", "ends", "platen_friction", "axis", "velocity", "rate", "expected_strength",
+                    "damping", "stop_at", "max_strain"});
   const std::string kind = table.choice("kind", kinds());
   VirtualTest test = plain_test(kind);
   test.name = table.text("name", kind);
@@ -48,14 +48,14 @@ VirtualTest read_test(const TomlTable& table) {
   virtual_tests::UniaxialOptions& options = test.options;
   if (table.has("axis")) options.axis = table.choice("axis", {"x", "y", "z"})[0] - 'x';
   if (test.kind == TestKind::elastic) {
-    for (const char* key :
-         {"ends", "velocity", "rate", "expected_strength", "damping", "stop_at", "max_strain"})
+    for (const char* key : {"ends", "platen_friction", "velocity", "rate", "expected_strength", "damping",
+                            "stop_at", "max_strain"})
       if (table.has(key))
         table.fail(key, "has no meaning for an elastic test", "its options are name and axis");
     return test;
   }
-  options.ends = table.choice("ends", {"free", "fixed"}, "free") == "fixed" ? dem::EndCondition::fixed
-                                                                            : dem::EndCondition::free;
+  options.ends = dem::end_condition(table.choice("ends", dem::end_condition_names(), "free"));
+  options.platen_friction = within(table, "platen_friction", options.platen_friction, 0, 2);
   if (table.has("velocity") && table.has("rate"))
     table.fail("rate", "stands beside velocity", "give one of them: both set the speed of the platens");
   options.velocity = positive(table, "velocity", dem::Quantity::velocity);

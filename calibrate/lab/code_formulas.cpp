@@ -82,15 +82,16 @@ LabCurve compression_curve(const CodeConcrete& c, int points_to_peak) {
   return curve;
 }
 
+constexpr double tension_strain_at_peak = 0.00015;  // Model Code 2010, 5.1.8.2
+
 /// Straight to 0.9 fctm, then flatter up to fctm at 0.15 permil (Model Code 2010, 5.1.8.2).
 LabCurve tension_curve(const CodeConcrete& c, int points_to_peak, bool with_knee) {
   LabCurve curve;
   curve.loading = Loading::tension;
   const double ft = c.fctm.value;
   const double knee = 0.9 * ft / c.E_initial.value;
-  constexpr double strain_at_peak = 0.00015;
-  with_knee = with_knee && knee < strain_at_peak;
-  const double end = with_knee ? strain_at_peak : ft / c.E_initial.value;
+  with_knee = with_knee && knee < tension_strain_at_peak;
+  const double end = with_knee ? tension_strain_at_peak : ft / c.E_initial.value;
   for (int k = 0; k <= points_to_peak; ++k) {
     const double strain = end * k / points_to_peak;
     curve.strain.push_back(strain);
@@ -204,6 +205,8 @@ CodeConcrete code_concrete(Code code, double fck_pascal, Aggregate aggregate, in
     c.strain_limit = {row.strain_limit * 1e-3, source("Table 5.1-8")};
     // k = Eci / Ec1: the table's is of quartzite, and the aggregate scales Eci.
     c.k = {alpha * row.k, source_aggregate("5.1-26, Table 5.1-8")};
+    if (0.9 * c.fctm.value < tension_strain_at_peak * c.E_initial.value)
+      c.tension_strain_at_peak = {tension_strain_at_peak, source("5.1.8.2")};
     c.fracture_energy = {73 * std::pow(fcm, 0.18), source("5.1-9")};
   }
   // With k at 1 the secant at the peak is the tangent at the origin: no curve could bend in between.

@@ -30,19 +30,20 @@ struct CodeTarget {
 struct CodeConcrete {
   Code code = Code::model_code_2010;
   Aggregate aggregate = Aggregate::quartzite;
-  double fck = 0;              ///< Pa, characteristic strength of cylinders
-  CodeTarget fcm;              ///< Pa, mean compressive strength
-  CodeTarget fctm;             ///< Pa, mean tensile strength
-  CodeTarget E_initial;        ///< Pa: Eci (Model Code), 1.05 Ecm (Eurocode): the tangent at the origin
-  CodeTarget E_secant;         ///< Pa: reduced Ec (Model Code), Ecm (Eurocode: secant from 0 to 0.4 fcm)
-  CodeTarget nu;               ///< -
-  CodeTarget strain_at_peak;   ///< - : eps_c1
-  CodeTarget strain_limit;     ///< - : eps_c,lim, eps_cu1: where the compression curve ends
-  CodeTarget k;                ///< - : plasticity number of the compression curve
-  CodeTarget fracture_energy;  ///< N/m : Model Code only
-  LabCurve compression;        ///< 0 to strain_limit, its peak on a point; `file` holds the source
-  LabCurve tension;            ///< 0 to the tensile strength; Eurocode: straight to the strength, at E_initial
-  OpeningCurve softening;      ///< after the tensile strength; Model Code only, else empty
+  double fck = 0;                     ///< Pa, characteristic strength of cylinders
+  CodeTarget fcm;                     ///< Pa, mean compressive strength
+  CodeTarget fctm;                    ///< Pa, mean tensile strength
+  CodeTarget E_initial;               ///< Pa: Eci (Model Code), 1.05 Ecm (Eurocode): the tangent at the origin
+  CodeTarget E_secant;                ///< Pa: reduced Ec (Model Code), Ecm (Eurocode: secant from 0 to 0.4 fcm)
+  CodeTarget nu;                      ///< -
+  CodeTarget strain_at_peak;          ///< - : eps_c1
+  CodeTarget strain_limit;            ///< - : eps_c,lim, eps_cu1: where the compression curve ends
+  CodeTarget k;                       ///< - : plasticity number of the compression curve
+  CodeTarget tension_strain_at_peak;  ///< - : Model Code only
+  CodeTarget fracture_energy;         ///< N/m : Model Code only
+  LabCurve compression;               ///< 0 to strain_limit, its peak on a point; `file` holds the source
+  LabCurve tension;        ///< 0 to the tensile strength; Eurocode: straight to the strength, at E_initial
+  OpeningCurve softening;  ///< after the tensile strength; Model Code only, else empty
 };
 
 /// The characteristic strength in Pa from "C40/50", "C40" or a quantity ("40 MPa"). Throws dem::InputError,

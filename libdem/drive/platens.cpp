@@ -21,7 +21,18 @@ double mean_position(const Particles& particles, const std::vector<std::int32_t>
 
 }  // namespace
 
-std::string_view name_of(EndCondition ends) { return ends == EndCondition::free ? "free" : "fixed"; }
+const std::vector<std::string>& end_condition_names() {
+  static const std::vector<std::string> names{"free", "fixed", "rough"};
+  return names;
+}
+
+std::string_view name_of(EndCondition ends) { return end_condition_names()[static_cast<std::size_t>(ends)]; }
+
+EndCondition end_condition(std::string_view name) {
+  for (const EndCondition ends : {EndCondition::fixed, EndCondition::rough})
+    if (name_of(ends) == name) return ends;
+  return EndCondition::free;
+}
 
 double Platens::low_reaction(const Particles& particles) const { return -sum_forces(particles, low, axis); }
 double Platens::high_reaction(const Particles& particles) const { return sum_forces(particles, high, axis); }

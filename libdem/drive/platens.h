@@ -1,6 +1,7 @@
 // The two platens of a press: layers of elements at the ends that move along the loading axis at a given speed.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,10 +9,14 @@
 
 namespace dem {
 
-/// What the platens do to the lateral motion of the elements that they hold: nothing (greased or brushed
-/// platens), or hold it (rough platens, glued ends).
-enum class EndCondition { free, fixed };
+/// What the platens do to the lateral motion of the elements that they press: nothing (greased or brushed
+/// platens), hold it (glued ends), or rub (dry steel, see PlatenFriction).
+enum class EndCondition { free, fixed, rough };
 std::string_view name_of(EndCondition ends);
+/// The names that an input may give.
+const std::vector<std::string>& end_condition_names();
+/// The one of that name; free for an unknown name.
+EndCondition end_condition(std::string_view name);
 
 /// Elements whose centre is within `thickness` of either end, and what they feel.
 struct Platens {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "libdem/core/error.h"
 #include "libdem/run/step.h"
 #include "specimens/virtual_tests/expected_end.h"
@@ -47,6 +49,9 @@ void UniaxialOptions::validate() const {
   if (!(stop_at >= 0 && stop_at < 1)) refuse("stop-at", stop_at, "above 0, below 1 (part of the peak stress)");
   if (!(max_strain >= 0 && max_strain < 0.5)) refuse("max-strain", max_strain, "above 0, below 0.5");
   if (!(expected_strength >= 0)) refuse("expected strength", expected_strength, "positive");
+  if (!(platen_friction >= 0 && platen_friction <= 2)) refuse("platen friction", platen_friction, "0 to 2");
+  if (ends == dem::EndCondition::rough && loading == Loading::tension)
+    throw dem::InputError("ends", "rough platens cannot pull", "allowed in tension: free, fixed");
   if (threads < 1) refuse("threads", threads, "1 or more");
 }
 
@@ -62,11 +67,16 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
 
   dem::StepRoom room(assembly);
   CheckpointKeeper keeper(checkpoint, specimen, card, options);
+  if (options.ends == dem::EndCondition::rough)
+    record.friction =
+        dem::PlatenFriction(assembly.particles, plan.platens, options.platen_friction,
+                            assembly.law.shear_ratio * assembly.law.normal_modulus * std::numbers::pi / 2);
   keeper.restore(assembly, room, record);
 
   record.loop.start = std::chrono::steady_clock::now();
   for (bool over = false; !over;) {
-    const dem::StepSums sums = dem::advance(assembly, room, plan.step);
+    const dem::StepSums sums =
+        dem::advance(assembly, room, plan.step, record.friction.grip(assembly.particles));
     book_step(record, plan, sums, assembly.particles);
     if (window_is_full(record, plan)) {
       close_window(record, plan, assembly, room);

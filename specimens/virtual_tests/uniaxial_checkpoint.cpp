@@ -15,9 +15,10 @@ std::string sha256_of(const dem::MaterialCard& card) { return dem::sha256_of(dem
 
 /// All but the number of threads, on which the bits do not depend.
 std::string sha256_of(const UniaxialOptions& o) {
-  return dem::sha256_of(fmt::format("{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", name_of(o.loading),
-                                    dem::name_of(o.ends), o.axis, o.expected_strength, o.velocity, o.rate,
-                                    o.damping, o.time_step_fraction, o.stop_at, o.max_strain));
+  return dem::sha256_of(fmt::format("{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", name_of(o.loading),
+                                    dem::name_of(o.ends), o.axis, o.platen_friction, o.expected_strength,
+                                    o.velocity, o.rate, o.damping, o.time_step_fraction, o.stop_at,
+                                    o.max_strain));
 }
 
 /// Calls `visit(name, number)` for each number of the record: one list, for writing and for reading.
@@ -28,6 +29,7 @@ void for_each_number(Record& r, Visit&& visit) {
   visit("low", r.low);
   visit("high", r.high);
   visit("previous_reaction", r.previous_reaction);
+  visit("friction_work", r.friction_work);
   visit("worst_imbalance", r.worst_imbalance);
   visit("peak", r.peak);
   visit("peak_index", r.peak_index);
@@ -48,6 +50,7 @@ dem::NamedNumbers numbers_of(const UniaxialRecord& record, int rebuilds) {
   dem::NamedNumbers numbers;
   for_each_number(record, [&](const char* name, auto value) { numbers[name] = {static_cast<double>(value)}; });
   append(numbers["point"], record.point);
+  numbers["platen_friction"] = record.friction.memory();
   std::vector<double>& curve = numbers["curve"];
   for (const CurvePoint& point : record.curve) append(curve, point);
   numbers["rebuilds"] = {static_cast<double>(record.rebuilds + rebuilds)};
@@ -66,6 +69,7 @@ void set_from(UniaxialRecord& record, const dem::NamedNumbers& numbers, const st
   for_each_number(record, [&](const char* name, auto& value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(column(name)[0]);
   });
+  record.friction.restore(column("platen_friction"));
   const auto point_from = [](const std::vector<double>& v, std::size_t k) {
     return CurvePoint{v[k], v[k + 1], v[k + 2], v[k + 3], v[k + 4], v[k + 5]};
   };

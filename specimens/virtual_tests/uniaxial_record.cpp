@@ -59,6 +59,9 @@ void book_step(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Step
   // The platens close at half the speed each; their work is the mean reaction over the step times the way.
   const double reaction = plan.sign * 0.5 * (low + high);
   ledger.external += 0.5 * (reaction + record.previous_reaction) * plan.velocity * plan.step.time_step;
+  record.friction.feel(particles);
+  ledger.external += record.friction.work() - record.friction_work;
+  record.friction_work = record.friction.work();
   record.previous_reaction = reaction;
   record.low += plan.sign * low;
   record.high += plan.sign * high;

@@ -2,6 +2,7 @@
 #pragma once
 #include <chrono>
 
+#include "libdem/drive/platen_friction.h"
 #include "libdem/probe/energy.h"
 #include "libdem/run/step.h"
 #include "specimens/virtual_tests/curve.h"
@@ -27,7 +28,9 @@ struct UniaxialRecord {
   double low = 0, high = 0;  ///< sums of the platens' reactions [N]
   CurvePoint point;          ///< what is known of its point; `broken` stays from the last time it was counted
 
+  dem::PlatenFriction friction;  ///< between rough platens and their layers
   dem::EnergyLedger ledger;
+  double friction_work = 0;      ///< of the platens' friction, as booked [J]
   double previous_reaction = 0;  ///< of the last step [N]
   double worst_imbalance = 0;    ///< of the ledger [J]
   double peak = 0;               ///< highest stress so far [Pa]

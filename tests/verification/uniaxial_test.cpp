@@ -130,6 +130,57 @@ TEST(Ends, FixedOnesGiveAHigherCompressiveStrengthThanFreeOnes) {
   RecordProperty("fixed_over_free", std::to_string(fixed.peak_stress / compression().peak_stress));
 }
 
+namespace {
+
+/// Compression of a small cube between rough platens, with the law that has a peak for every friction.
+UniaxialResult rubbed(EndCondition ends, double friction, int threads = 1) {
+  static const specimens::Specimen cube = [] {
+    specimens::PackingOptions packing;
+    packing.size = dem::Vec3(0.2, 0.2, 0.2);
+    packing.elements = 700;
+    packing.threads = 1;
+    return specimens::make_specimen(packing);
+  }();
+  dem::MaterialCard card;
+  card.link_law = dem::LinkLawKind::moment_transfer;
+  card.tensile_strength = 4.5e6, card.cohesion = 25e6, card.softening = 3, card.slip_softening = 3;
+  UniaxialOptions options;
+  options.loading = Loading::compression;
+  options.ends = ends;
+  options.platen_friction = friction;
+  options.expected_strength = 50e6;
+  options.rate = 0.03;
+  options.stop_at = 0.9;
+  options.threads = threads;
+  return run_uniaxial(cube, card, options);
+}
+
+}  // namespace
+
+TEST(RoughEnds, WithoutFrictionAreFreeOnesBitForBit) {
+  const UniaxialResult free = rubbed(EndCondition::free, 0.2), rough = rubbed(EndCondition::rough, 0);
+  EXPECT_EQ(rough.state_sha256, free.state_sha256);
+  EXPECT_EQ(rough.peak_stress, free.peak_stress);
+}
+
+TEST(RoughEnds, RaiseTheStrengthWithFrictionFromThatOfFreeToAboutThatOfFixedEnds) {
+  const double free = rubbed(EndCondition::free, 0).peak_stress,
+               fixed = rubbed(EndCondition::fixed, 0).peak_stress;
+  double last = free;
+  for (const double friction : {0.05, 0.1, 0.2}) {
+    const UniaxialResult found = rubbed(EndCondition::rough, friction);
+    EXPECT_GT(found.peak_stress, last) << friction;
+    EXPECT_LT(found.energy_balance_error, 0.005) << friction;
+    last = found.peak_stress;
+  }
+  EXPECT_GT(fixed, 1.3 * free);
+  EXPECT_NEAR(rubbed(EndCondition::rough, 2).peak_stress, fixed, 0.2 * fixed);
+}
+
+TEST(RoughEnds, GiveTheSameBitsOnAnyNumberOfThreads) {
+  EXPECT_EQ(rubbed(EndCondition::rough, 0.1, 3).state_sha256, rubbed(EndCondition::rough, 0.1).state_sha256);
+}
+
 TEST(Damage, IsBrokenOverInitialLinksOfEachElement) {
   const UniaxialResult& result = tension();
   const specimens::Specimen& specimen = prism();
