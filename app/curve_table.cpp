@@ -36,6 +36,8 @@ Header header_of(const std::string& text) {
     header.unit = text.substr(bracket + 1, text.find(']') - bracket - 1);
   }
   if (header.unit == "Pa") return {header.name, "MPa", 1e-6};
+  if (header.unit == "N") return {header.name, "kN", 1e-3};
+  if (header.unit == "m") return {header.name, "mm", 1e3};
   if (header.unit == "-")
     return header.name.rfind("strain", 0) == 0 ? Header{header.name, "‰", 1e3} : Header{header.name, "", 1};
   return header;

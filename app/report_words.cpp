@@ -5,9 +5,24 @@
 #include <limits>
 #include <map>
 
+#include "libdem/core/units.h"
 #include "report/html.h"
+#include "specimens/virtual_tests/catalogue.h"
 
 namespace app {
+
+namespace {
+
+/// In the unit that people use for one of SI.
+Label label_with_unit(const std::string& words, const std::string& key, const std::string& unit) {
+  if (unit == "Pa") return {words, "MPa", 1e-6};
+  if (unit == "N") return {words, "kN", 1e-3};
+  if (unit == "m") return {words, "mm", 1e3};
+  if (unit == "-" && key.rfind("strain", 0) == 0) return {words, "‰", 1e3};
+  return {words, people_unit(unit), 1};
+}
+
+}  // namespace
 
 Label label_of(const std::string& key) {
   constexpr double degrees = 180 / 3.14159265358979323846;
@@ -37,7 +52,7 @@ Label label_of(const std::string& key) {
       {"work_of_fracture", {"work after the peak per area", "J/m²", 1}},
       {"damage", {"links broken, part of all", "%", 100}},
       {"energy_balance_error", {"error of the energy balance", "%", 100}},
-      {"unbalanced_force_ratio", {"difference of the two platens' forces", "%", 100}},
+      {"unbalanced_force_ratio", {"difference of the forces that balance", "%", 100}},
       {"passed_peak", {"peak passed", "", 1}},
       {"quasi_static", {"quasi-static", "", 1}},
       {"broken_links", {"links broken", "", 1}},
@@ -50,7 +65,7 @@ Label label_of(const std::string& key) {
       {"damage_volume", {"volume of concrete that lost more than half its links", "dm³", 1e3}},
       {"ends", {"ends of the specimen", "", 1}},
       {"axis", {"loading axis", "", 1}},
-      {"velocity", {"speed of the platens", "m/s", 1}},
+      {"velocity", {"speed of loading", "m/s", 1}},
       {"damping", {"local damping", "", 1}},
       {"time_step", {"time step", "µs", 1e6}},
       {"critical_time_step", {"critical time step", "µs", 1e6}},
@@ -65,9 +80,13 @@ Label label_of(const std::string& key) {
       {"cpu", {"processor", "", 1}},
       {"arch", {"architecture", "", 1}}};
   if (const auto found = known.find(key); found != known.end()) return found->second;
-  Label label{key, "", 1};
-  std::replace(label.words.begin(), label.words.end(), '_', ' ');
-  return label;
+  if (const virtual_tests::MeasuredQuantity* found = virtual_tests::find_measured(key))
+    return label_with_unit(found->words, key, found->unit);
+  std::string words = key;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (const virtual_tests::TestOption* option = virtual_tests::find_option(key))
+    return label_with_unit(words, key, std::string(dem::si_unit(option->quantity)));
+  return {words, "", 1};
 }
 
 std::string with_unit(double value, const std::string& unit, int digits) {
@@ -80,7 +99,8 @@ std::string value_words(const std::string& key, const Json& value) {
   if (value.is_null()) return "–";
   if (value.is_string()) {
     std::string words = value.get<std::string>();
-    if (key == "link_law" || key == "unloading" || key == "cohesion_during_softening" || key == "broken_link_contact")
+    if (key == "link_law" || key == "unloading" || key == "cohesion_during_softening" ||
+        key == "broken_link_contact")
       std::replace(words.begin(), words.end(), '_', ' ');
     return words;
   }

@@ -7,6 +7,7 @@
 
 #include "app/curve_table.h"
 #include "report/html.h"
+#include "specimens/virtual_tests/catalogue.h"
 
 namespace app {
 namespace {
@@ -62,7 +63,7 @@ report::Chart stress_chart(const std::vector<Column>& columns, bool compression)
 }
 
 report::Chart damage_chart(const std::vector<Column>& columns) {
-  const Column *strain = column(columns, "strain"), *broken = column(columns, "broken"),
+  const Column *control = &columns.front(), *broken = column(columns, "broken"),
                *unbalanced = column(columns, "unbalanced");
   const auto percent = [](Column values) {
     for (double& value : values.values) value *= 100;
@@ -70,53 +71,99 @@ report::Chart damage_chart(const std::vector<Column>& columns) {
   };
   report::Chart chart;
   chart.title = "Damage and balance";
-  chart.x = {"axial strain between the platens", "‰", false, {}, {}};
+  chart.x = {control->name == "strain" ? "axial strain between the platens" : control->name,
+             control->unit,
+             false,
+             {},
+             {}};
   chart.y = {"part", "%", false, {}, {}};
-  chart.series.push_back(series("links broken, of all", *strain, percent(*broken), 0));
+  chart.series.push_back(series("links broken, of all", *control, percent(*broken), 0));
   if (unbalanced != nullptr)
-    chart.series.push_back(series("difference of the platens' forces, of their mean", *strain,
+    chart.series.push_back(series("difference of the forces that balance, of their mean", *control,
                                   percent(*unbalanced), 5, report::Series::Kind::dashed));
   return chart;
+}
+
+/// Whether it was balanced and ran to its end.
+std::string how_it_went(const Json& result) {
+  if (!result.value("passed_peak", true)) return "The test ended at its limit before the peak was passed.";
+  if (!result.value("quasi_static", true))
+    return fmt::format("Not quasi-static: the forces that balance differ by {}; load it slower.",
+                       with_unit(100 * number(result, "unbalanced_force_ratio"), "%", 3));
+  return "The test was quasi-static.";
+}
+
+/// Curve of a laboratory test: stress over what is driven, and every other quantity over it too.
+void add_charts(report::Section& drawn, const std::vector<Column>& columns) {
+  std::vector<Column> own;
+  for (const Column& one : columns)
+    if (one.name != "broken" && one.name != "unbalanced") own.push_back(one);
+  for (report::Chart& chart : charts_of(own)) drawn.blocks.emplace_back(std::move(chart));
 }
 
 }  // namespace
 
 report::Page test_page(const Json& result, const std::filesystem::path& curves) {
   report::Page page;
+  const virtual_tests::TestDescription* test = virtual_tests::find_test(text(result, "test"));
   const bool uniaxial = result.contains("peak_stress");
-  if (uniaxial) {
+  if (!uniaxial && result.contains("passed_peak") && test != nullptr) {
+    const std::string& main = test->measured.front().key;
+    const bool good = result.value("passed_peak", true) && result.value("quasi_static", true);
+    page.verdict = good ? report::Verdict::neutral : report::Verdict::not_met;
+    page.verdict_words = fmt::format("{}: {}. {}", capital(label_of(main).words),
+                                     value_words(main, result.value(main, Json())), how_it_went(result));
+  } else if (uniaxial) {
     const bool good = result.value("passed_peak", true) && result.value("quasi_static", true);
     page.verdict = good ? report::Verdict::neutral : report::Verdict::not_met;
     page.verdict_words =
         fmt::format("Peak stress {} at a strain of {}. ", value_words("peak_stress", result["peak_stress"]),
                     with_unit(1e3 * number(result, "peak_strain"), "‰"));
-    if (!result.value("passed_peak", true))
-      page.verdict_words += "The test ended at its strain limit before the peak was passed.";
-    else if (!result.value("quasi_static", true))
-      page.verdict_words += fmt::format("Not quasi-static: the platens' forces differ by {}; load it slower.",
-                                        with_unit(100 * number(result, "unbalanced_force_ratio"), "%", 3));
-    else
-      page.verdict_words += "The test was quasi-static.";
+    page.verdict_words += how_it_went(result);
   } else if (result.contains("E")) {
     page.verdict_words =
         fmt::format("E = {}, ν = {}", value_words("E", result["E"]), value_words("nu", result["nu"]));
   }
-  page.sections.push_back({"Results",
-                           {rows_of(result, {"peak_stress", "peak_strain", "E", "nu", "work_of_fracture",
-                                             "broken_links", "damage"})}});
+  report::KeyValues measured;
+  const auto show = [&](const std::string& key) {
+    if (const auto found = result.find(key); found != result.end() && found->is_primitive())
+      measured.rows.emplace_back(capital(label_of(key).words), value_words(key, *found));
+  };
+  if (test != nullptr)
+    for (const virtual_tests::MeasuredQuantity& quantity : test->measured) show(quantity.key);
+  show("broken_links"), show("damage");
+  page.sections.push_back({"Results", {std::move(measured)}});
   const std::vector<Column> columns = read_columns(curves);
   report::Section drawn{"Curves", {}};
   if (column(columns, "strain") != nullptr && column(columns, "stress") != nullptr) {
     drawn.blocks.emplace_back(stress_chart(columns, text(result, "test") == "compression"));
-    if (column(columns, "broken") != nullptr) drawn.blocks.emplace_back(damage_chart(columns));
+  } else if (!columns.empty()) {
+    add_charts(drawn, columns);
   }
+  if (!columns.empty() && column(columns, "broken") != nullptr)
+    drawn.blocks.emplace_back(damage_chart(columns));
   if (!drawn.blocks.empty()) page.sections.push_back(std::move(drawn));
-  page.sections.push_back(
-      {"How it was run",
-       {rows_of(result,
-                {"elements", "links", "axis", "ends", "velocity", "damping", "passed_peak", "quasi_static",
-                 "unbalanced_force_ratio", "energy_balance_error", "steps", "time_step", "critical_time_step",
-                 "iterations", "threads", "step_loop_seconds", "wall_seconds", "state_sha256"})}});
+  report::KeyValues run = rows_of(result, {"elements", "links"});
+  if (test != nullptr)
+    for (const virtual_tests::TestOption& option : test->options) {
+      const auto found = result.find(option.key);
+      const bool later = option.key == "velocity" || option.key == "damping";
+      if (found != result.end() && found->is_primitive() && !later)
+        run.rows.emplace_back(capital(label_of(option.key).words), value_words(option.key, *found));
+    }
+  for (auto& row :
+       rows_of(result, {"velocity", "damping", "passed_peak", "quasi_static", "unbalanced_force_ratio",
+                        "energy_balance_error", "steps", "time_step", "critical_time_step", "iterations",
+                        "threads", "step_loop_seconds", "wall_seconds", "state_sha256"})
+           .rows)
+    run.rows.push_back(std::move(row));
+  if (const auto check = result.find("rate_check"); check != result.end() && check->is_object()) {
+    const std::string quantity = text(*check, "quantity");
+    run.rows.emplace_back(capital(label_of(quantity).words) + " at half the speed",
+                          fmt::format("{} ({:+.2f}%)", value_words(quantity, check->value("value", Json())),
+                                      100 * number(*check, "change")));
+  }
+  page.sections.push_back({"How it was run", {std::move(run)}});
   return page;
 }
 

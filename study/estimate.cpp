@@ -34,13 +34,29 @@ Estimate estimate_test(const specimens::PackingOptions& packing, const dem::Mate
   const specimens::Specimen specimen = nominal(packing);
   const auto elements = static_cast<double>(packing.elements);
   const double element_size = std::cbrt(specimen.volume() / elements);
-  const int axis = test.options.axis < 0 ? specimen.long_axis() : test.options.axis;
-  const double along = specimen.size[axis] / element_size;
-  if (test.kind == TestKind::elastic) return {seconds_per_solved_element * elements * along, memory(packing)};
+  const double longest = specimen.size.maxCoeff();
+  if (test.kind == TestKind::elastic)
+    return {seconds_per_solved_element * elements * longest / element_size, memory(packing)};
+  if (!std::holds_alternative<virtual_tests::UniaxialOptions>(test.options)) {
+    // See specimens/virtual_tests/rig_run: the elastic peak is reached after length / (wave speed * rate).
+    const virtual_tests::TestDescription& description = virtual_tests::description_of(test.options);
+    const double asked = std::visit(
+        [](const auto& o) -> double {
+          if constexpr (requires { o.run.rate; })
+            return o.run.rate;
+          else
+            return 0;
+        },
+        test.options);
+    const double rate = asked > 0 ? asked : description.usual_rate;
+    const double steps = description.usual_end * longest / (rate * 0.7 * critical_share * element_size);
+    return {seconds_per_element_step * elements * steps, memory(packing)};
+  }
 
   // The numbers that a uniaxial test settles before its first step: see specimens/virtual_tests/uniaxial_plan.
   const bool tension = test.kind == TestKind::tension;
-  const virtual_tests::UniaxialOptions& o = test.options;
+  const auto& o = std::get<virtual_tests::UniaxialOptions>(test.options);
+  const int axis = o.axis < 0 ? specimen.long_axis() : o.axis;
   const double strength =
       o.expected_strength > 0 ? o.expected_strength : (tension ? 0.9 : 6) * card.tensile_strength;
   const double elastic_strain = strength / card.young_modulus;

@@ -20,17 +20,13 @@ std::string key_of(const SpecimenRecipe& recipe) { return dem::sha256_of(key_tex
 
 std::string task_key(const SpecimenRecipe& recipe, const dem::MaterialCard& card, const VirtualTest& test) {
   std::string text = fmt::format("spall-study-result {}|{}", result_version, key_text(recipe));
-  const virtual_tests::UniaxialOptions& o = test.options;
   if (test.kind == TestKind::elastic) {
     const dem::LinkLaw law = dem::make_link_law(card);
-    return dem::sha256_of(
-        fmt::format("{}|elastic|{}|{:a}|{:a}", text, o.axis, law.normal_modulus, law.shear_ratio));
+    return dem::sha256_of(fmt::format("{}|{}|{:a}|{:a}", text, virtual_tests::text_of(test.options),
+                                      law.normal_modulus, law.shear_ratio));
   }
-  text += fmt::format("|{}", dem::identity_text(card));
-  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
-                      dem::name_of(o.ends), o.axis, o.platen_friction, o.expected_strength, o.velocity, o.rate,
-                      o.damping, o.time_step_fraction, o.stop_at, o.max_strain);
-  return dem::sha256_of(text);
+  text += "|" + dem::identity_text(card);
+  return dem::sha256_of(text + "|" + virtual_tests::text_of(test.options));
 }
 
 }  // namespace study

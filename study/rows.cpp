@@ -61,13 +61,15 @@ std::vector<Quantity> quantities_of(const Study& study) {
       list.push_back(
           {plain && *short_name != 0 ? std::string(short_name) : test.name + "." + key, test.name, key});
     };
-    if (test.kind == TestKind::elastic) {
-      add("E", "E");
-      add("nu", "nu");
-      continue;
-    }
-    add("peak_stress", test.kind == TestKind::tension ? "ft" : "fc");
-    for (const char* key : {"peak_strain", "E", "nu", "work_of_fracture", "damage"}) add(key, "");
+    const auto short_name = [&](const std::string& key) {
+      if (test.kind == TestKind::elastic) return key.c_str();
+      if (key != "peak_stress") return "";
+      return test.kind == TestKind::tension ? "ft" : test.kind == TestKind::compression ? "fc" : "";
+    };
+    const virtual_tests::TestDescription& description = virtual_tests::description_of(test.kind);
+    for (const virtual_tests::MeasuredQuantity& measured : description.measured)
+      add(measured.key.c_str(), short_name(measured.key));
+    if (description.usual_rate > 0) add("damage", "");
   }
   return list;
 }

@@ -38,10 +38,6 @@ void read_cards(const dem::TomlTable& root, Study& study) {
 
 }  // namespace
 
-std::string_view name_of(TestKind kind) {
-  return kind == TestKind::elastic ? "elastic" : kind == TestKind::tension ? "tension" : "compression";
-}
-
 std::string label_of(const SpecimenRecipe& recipe) {
   return recipe.file.empty() ? fmt::format("{}, seed {}", recipe.group, recipe.packing.seed)
                              : fmt::format("{}, {}", recipe.group, recipe.file.filename().string());

@@ -3,24 +3,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "libdem/core/units.h"
 #include "libdem/material/material_card.h"
 #include "specimens/packing.h"
-#include "specimens/virtual_tests/uniaxial.h"
+#include "specimens/virtual_tests/catalogue.h"
 
 namespace study {
 
-enum class TestKind { elastic, tension, compression };
-std::string_view name_of(TestKind kind);
+using virtual_tests::name_of;
+using virtual_tests::TestKind;
 
 /// One virtual test that every specimen goes through.
 struct VirtualTest {
   std::string name;  ///< unique in the study; the kind's own name unless the file gives another
   TestKind kind = TestKind::elastic;
-  virtual_tests::UniaxialOptions options;  ///< an elastic test uses the axis only
+  virtual_tests::TestOptions options;  ///< of that kind
 };
 
 /// One specimen: how to pack it, or the file that holds it.

@@ -68,8 +68,9 @@ Json settings_json(const Plan& plan, const RowTable& table) {
 }
 
 std::string unit_of(const std::string& key) {
-  if (key == "peak_stress" || key == "E") return "Pa";
-  if (key == "work_of_fracture") return "J/m2";
+  if (const auto* measured = virtual_tests::find_measured(key)) return measured->unit;
+  if (const virtual_tests::TestOption* option = virtual_tests::find_option(key))
+    return std::string(dem::si_unit(option->quantity));
   if (key == "velocity") return "m/s";
   if (key == "time_step" || key == "critical_time_step") return "s";
   return "-";

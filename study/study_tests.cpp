@@ -1,70 +1,85 @@
 // tests = ["elastic", "tension"], or [[test]] with options.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/study_parts.h"
 
 namespace study {
 namespace {
 
 using dem::TomlTable;
+using virtual_tests::TestOption;
 
-const std::vector<std::string>& kinds() {
-  static const std::vector<std::string> names{"elastic", "tension", "compression"};
-  return names;
+VirtualTest plain_test(const std::string& name) {
+  const virtual_tests::TestDescription& found = *virtual_tests::find_test(name);
+  return {name, found.kind, found.defaults};
 }
 
-VirtualTest plain_test(const std::string& kind) {
-  VirtualTest test;
-  test.name = kind;
-  test.kind = kind == "elastic"   ? TestKind::elastic
-              : kind == "tension" ? TestKind::tension
-                                  : TestKind::compression;
-  test.options.loading = test.kind == TestKind::compression ? virtual_tests::Loading::compression
-                                                            : virtual_tests::Loading::tension;
-  return test;
+std::vector<std::string> keys_of(const virtual_tests::TestDescription& test) {
+  std::vector<std::string> keys{"name", "kind"};
+  for (const TestOption& option : test.options) keys.push_back(option.key);
+  return keys;
 }
 
-double positive(const TomlTable& table, const char* key, dem::Quantity kind) {
-  if (!table.has(key)) return 0;
-  const double value = table.quantity(key, kind);
-  if (!(value > 0)) table.fail(key, fmt::format("is {:.4g}", value), "it must be greater than 0");
-  return value;
+/// Every key that some test has.
+std::vector<std::string> all_keys() {
+  std::vector<std::string> all;
+  for (const virtual_tests::TestDescription& test : virtual_tests::catalogue())
+    for (const std::string& key : keys_of(test))
+      if (std::find(all.begin(), all.end(), key) == all.end()) all.push_back(key);
+  return all;
 }
 
-double within(const TomlTable& table, const char* key, double fallback, double low, double high) {
-  const double value = table.number(key, fallback);
-  if (table.has(key) && !(value >= low && value <= high))
-    table.fail(key, fmt::format("is {}", value), fmt::format("allowed: {} to {}", low, high));
-  return value;
+/// Refuses what other tests have.
+void require_own_keys(const TomlTable& table, const virtual_tests::TestDescription& test) {
+  const std::vector<std::string> own = keys_of(test);
+  for (const std::string& key : table.keys())
+    if (std::find(own.begin(), own.end(), key) == own.end())
+      table.fail(key,
+                 fmt::format("has no meaning for {} {} test", test.name == "elastic" ? "an" : "a", test.name),
+                 fmt::format("its options are {}", fmt::join(own, ", ")));
+}
+
+virtual_tests::Value value_of(const TomlTable& table, const TestOption& option) {
+  switch (option.kind) {
+    case TestOption::Kind::quantity: {
+      const double value = table.quantity(option.key, option.quantity);
+      if (!(value > option.low))
+        table.fail(option.key, fmt::format("is {:.4g}", value),
+                   fmt::format("it must be greater than {:.4g}", option.low));
+      if (!(value <= option.high))
+        table.fail(option.key, fmt::format("is {:.4g}", value),
+                   fmt::format("it must be at most {:.4g}", option.high));
+      return value;
+    }
+    case TestOption::Kind::number: {
+      const double value = table.number(option.key);
+      if (!(value >= option.low && value <= option.high))
+        table.fail(option.key, fmt::format("is {}", value),
+                   fmt::format("allowed: {} to {}", option.low, option.high));
+      return value;
+    }
+    case TestOption::Kind::choice:
+      return table.choice(option.key, option.choices);
+    case TestOption::Kind::flag:
+      break;
+  }
+  return table.boolean(option.key);
 }
 
 VirtualTest read_test(const TomlTable& table) {
-  table.allow_only({"name", "kind", "ends", "platen_friction", "axis", "velocity", "rate", "expected_strength",
-                    "damping", "stop_at", "max_strain"});
-  const std::string kind = table.choice("kind", kinds());
+  table.allow_only(all_keys());
+  const std::string kind = table.choice("kind", virtual_tests::names_of_tests());
+  const virtual_tests::TestDescription& description = *virtual_tests::find_test(kind);
+  require_own_keys(table, description);
   VirtualTest test = plain_test(kind);
   test.name = table.text("name", kind);
   if (test.name.empty()) table.fail("name", "is empty", "give the test a name, or leave the key out");
-  virtual_tests::UniaxialOptions& options = test.options;
-  if (table.has("axis")) options.axis = table.choice("axis", {"x", "y", "z"})[0] - 'x';
-  if (test.kind == TestKind::elastic) {
-    for (const char* key : {"ends", "platen_friction", "velocity", "rate", "expected_strength", "damping",
-                            "stop_at", "max_strain"})
-      if (table.has(key))
-        table.fail(key, "has no meaning for an elastic test", "its options are name and axis");
-    return test;
-  }
-  options.ends = dem::end_condition(table.choice("ends", dem::end_condition_names(), "free"));
-  options.platen_friction = within(table, "platen_friction", options.platen_friction, 0, 2);
+  for (const TestOption& option : description.options)
+    if (table.has(option.key)) option.set(test.options, value_of(table, option));
   if (table.has("velocity") && table.has("rate"))
-    table.fail("rate", "stands beside velocity", "give one of them: both set the speed of the platens");
-  options.velocity = positive(table, "velocity", dem::Quantity::velocity);
-  options.rate = within(table, "rate", options.rate, 1e-6, 1);
-  options.expected_strength = positive(table, "expected_strength", dem::Quantity::stress);
-  options.damping = within(table, "damping", options.damping, 0, 0.99);
-  options.stop_at = within(table, "stop_at", options.stop_at, 0.001, 0.999);
-  options.max_strain = positive(table, "max_strain", dem::Quantity::ratio);
-  told_about(table, "max_strain", [&] { options.validate(); });
+    table.fail("rate", "stands beside velocity", "give one of them: both set the speed");
   return test;
 }
 
@@ -76,10 +91,9 @@ void read_tests(const TomlTable& root, Study& study) {
     root.fail("tests", "stands beside [[test]]", "give either the list or the tables");
   if (root.has("tests")) {
     for (const std::string& kind : one_or_more_texts(root, "tests")) {
-      bool known = false;
-      for (const std::string& name : kinds()) known = known || name == kind;
-      if (!known)
-        root.fail("tests", fmt::format("\"{}\" is no test", kind), "allowed: elastic, tension, compression");
+      if (virtual_tests::find_test(kind) == nullptr)
+        root.fail("tests", fmt::format("\"{}\" is no test", kind),
+                  fmt::format("allowed: {}", fmt::join(virtual_tests::names_of_tests(), ", ")));
       study.tests.push_back(plain_test(kind));
     }
   }

@@ -14,18 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* format = "spall-study-result";
 
-/// The columns of a curve, as in curves.csv.
-struct CurveColumn {
-  const char* name;
-  double virtual_tests::CurvePoint::*value;
-};
-constexpr CurveColumn columns[] = {{"strain", &virtual_tests::CurvePoint::strain},
-                                   {"stress", &virtual_tests::CurvePoint::stress},
-                                   {"strain_axial", &virtual_tests::CurvePoint::strain_axial},
-                                   {"strain_lateral", &virtual_tests::CurvePoint::strain_lateral},
-                                   {"broken", &virtual_tests::CurvePoint::broken},
-                                   {"unbalanced", &virtual_tests::CurvePoint::unbalanced}};
-
 Value value_from(const Json& json, const std::string& file, const std::string& name) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
@@ -55,10 +43,11 @@ Json to_json(const Value& value) {
 Json to_json(const TaskResult& result) {
   Json json{{"format", format}, {"version", result_version}, {"key", result.key}};
   for (const auto& [name, value] : result.values) json["result"][name] = to_json(value);
-  if (!result.curve.empty())
-    for (const CurveColumn& column : columns) {
-      Json& list = json["curve"][column.name] = Json::array();
-      for (const virtual_tests::CurvePoint& point : result.curve) list.push_back(point.*column.value);
+  const virtual_tests::CurveTable& curve = result.curve;
+  if (!curve.empty())
+    for (const virtual_tests::CurveColumn& column : curve.columns) {
+      json["curve"][column.name] = curve.column(column.name);
+      json["curve_units"][column.name] = column.unit;
     }
   return json;
 }
@@ -72,15 +61,18 @@ TaskResult result_from(const Json& json, const std::string& file) {
     result.values.emplace_back(name, value_from(value, file, name));
   if (json.contains("curve")) {
     const Json& curve = json.at("curve");
-    result.curve.resize(curve.at("strain").size());
-    for (const CurveColumn& column : columns) {
-      const Json& list = curve.at(column.name);
-      for (std::size_t k = 0; k < result.curve.size(); ++k) {
-        const Json& number = list.at(k);
-        result.curve[k].*column.value =
-            number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
-      }
+    std::vector<std::vector<double>> columns;
+    for (const auto& [name, list] : curve.items()) {
+      result.curve.columns.push_back({name, json.at("curve_units").at(name).get<std::string>()});
+      std::vector<double>& column = columns.emplace_back();
+      for (const Json& number : list)
+        column.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>());
+      if (column.size() != columns.front().size())
+        throw dem::InputError(file, fmt::format("the curve's column {} has another length", name),
+                              "delete the file and run again");
     }
+    for (std::size_t row = 0; !columns.empty() && row < columns.front().size(); ++row)
+      for (const std::vector<double>& column : columns) result.curve.values.push_back(column[row]);
   }
   return result;
 }

@@ -4,14 +4,13 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "specimens/virtual_tests/curve.h"
+#include "specimens/virtual_tests/outcome.h"
 
 namespace study {
 
-using Value = std::variant<bool, std::int64_t, double, std::string>;
+using virtual_tests::Value;
 /// NaN if no number has that name.
 double number_of(const std::vector<std::pair<std::string, Value>>& values, const std::string& name);
 
@@ -20,7 +19,7 @@ double number_of(const std::vector<std::pair<std::string, Value>>& values, const
 struct TaskResult {
   std::string key;  ///< of the task
   std::vector<std::pair<std::string, Value>> values;
-  virtual_tests::Curve curve;  ///< empty for an elastic test
+  virtual_tests::CurveTable curve;  ///< empty for an elastic test
 };
 
 /// How a result came about: kept apart from it.

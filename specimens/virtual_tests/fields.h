@@ -1,20 +1,20 @@
-// The fields at the end of a uniaxial test, for ParaView.
+// The fields at the end of a virtual test, for ParaView.
 #pragma once
 #include <filesystem>
 
 #include "specimens/specimen.h"
-#include "specimens/virtual_tests/uniaxial.h"
+#include "specimens/virtual_tests/final_fields.h"
 
 namespace virtual_tests {
 
 /// Writes the elements as points where they were at the start [m], with `radius` [m], `damage` [-],
 /// `displacement` [m] and `coordination` (links that are not broken). VTKHDF. Throws RunError.
 void write_element_fields(const std::filesystem::path& file, const specimens::Specimen& specimen,
-                          const UniaxialResult& result);
+                          const FinalFields& fields);
 
 /// Writes the links as lines between the same points, with `state` (0 intact, 1 softening, 2 broken) and
 /// `strain` (elongation over D_init) of each, and the points' `displacement` [m]. VTKHDF. Throws RunError.
 void write_link_fields(const std::filesystem::path& file, const specimens::Specimen& specimen,
-                       const UniaxialResult& result);
+                       const FinalFields& fields);
 
 }  // namespace virtual_tests

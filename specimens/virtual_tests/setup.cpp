@@ -18,6 +18,10 @@ dem::Assembly make_assembly(const Specimen& specimen, const dem::MaterialCard& c
           dem::make_link_law(card)};
 }
 
+dem::LinkNetwork link_network(const Specimen& specimen, const dem::Assembly& assembly) {
+  return {specimen.centres, specimen.radii, specimen.links, assembly.law};
+}
+
 int loading_axis(const Specimen& specimen, int wanted) {
   if (wanted < 0) return specimen.long_axis();
   if (specimen.shape == Shape::cylinder && wanted != 2)

@@ -66,12 +66,13 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
   record.ledger.initial = kinetic_energy(assembly.particles);
 
   dem::StepRoom room(assembly);
-  CheckpointKeeper keeper(checkpoint, specimen, card, options);
   if (options.ends == dem::EndCondition::rough)
     record.friction =
         dem::PlatenFriction(assembly.particles, plan.platens, options.platen_friction,
                             assembly.law.shear_ratio * assembly.law.normal_modulus * std::numbers::pi / 2);
-  keeper.restore(assembly, room, record);
+  CheckpointKeeper keeper(checkpoint, belonging_of(checkpoint, specimen, card, options));
+  if (const auto numbers = keeper.restore(assembly, room)) set_from(record, *numbers, checkpoint.file);
+  const auto kept = [&] { return numbers_of(record, room.detector.rebuilds()); };
 
   record.loop.start = std::chrono::steady_clock::now();
   for (bool over = false; !over;) {
@@ -83,7 +84,7 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
       over = is_over(record, plan);
       if (progress) progress(where_it_stands(record, plan, over));
     }
-    if (!over) keeper.look(assembly, room, record);
+    if (!over) keeper.look(assembly, room, record.steps, kept);
   }
   return conclude(std::move(record), plan, assembly, room);
 }

@@ -1,18 +1,17 @@
 // Uniaxial tension and compression, quasi-static, to past the peak.
 #pragma once
-#include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "libdem/core/progress.h"
-#include "libdem/core/vector.h"
 #include "libdem/drive/platens.h"
 #include "libdem/material/material_card.h"
 #include "libdem/probe/energy.h"
 #include "specimens/specimen.h"
+#include "specimens/virtual_tests/checkpoint_policy.h"
 #include "specimens/virtual_tests/curve.h"
+#include "specimens/virtual_tests/final_fields.h"
 
 namespace virtual_tests {
 
@@ -40,26 +39,13 @@ struct UniaxialOptions {
   void validate() const;
 };
 
-/// How a long test can be stopped and go on. Without a file a stopped test starts anew.
-struct CheckpointPolicy {
-  std::filesystem::path file{};  ///< empty: no checkpoint is kept
-  double seconds_between = 60;   ///< it is also written this often, so that a crash costs no more [s]
-  bool resume = false;           ///< go on from `file`, if it is there
-  long stop_after = 0;           ///< stop after this step as if a signal had come; 0: never
-};
-
-enum class LinkState : std::uint8_t { intact = 0, softening = 1, broken = 2 };
-
-struct UniaxialResult {
+/// With the fields at the end.
+struct UniaxialResult : FinalFields {
   Curve curve;
   double peak_stress = 0, peak_strain = 0;      ///< [Pa], between the platens [-]
   double young_modulus = 0, poisson_ratio = 0;  ///< from the curve, 10 to 33% of the peak
   double work_of_fracture = 0;  ///< per section area [J/m2]; whole only if the test ran to low stress
   std::size_t links = 0, broken_links = 0, contacts = 0;
-  std::vector<double> damage;           ///< of each element: broken over initial links
-  std::vector<dem::Vec3> displacement;  ///< of each element, at the end [m]
-  std::vector<LinkState> link_state;    ///< of each of the specimen's links, at the end
-  std::vector<double> link_strain;      ///< elongation over D_init of each link, at the end [-]
   long steps = 0;
   double time_step = 0, critical_time_step = 0, velocity = 0;  ///< [s], [s], [m/s]
   int detector_rebuilds = 0;

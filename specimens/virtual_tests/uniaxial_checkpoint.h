@@ -1,28 +1,17 @@
-// When a uniaxial test writes its checkpoint, and how it goes on from one.
+// What a uniaxial test's checkpoint keeps besides the assembly, and what it belongs to.
 #pragma once
-#include "libdem/run/checkpoint.h"
+#include "specimens/virtual_tests/checkpoint_keeper.h"
 #include "specimens/virtual_tests/uniaxial_record.h"
 
 namespace virtual_tests {
 
-/// Looks after each step whether it is time to write, or to stop.
-class CheckpointKeeper {
- public:
-  CheckpointKeeper(const CheckpointPolicy& policy, const specimens::Specimen& specimen,
-                   const dem::MaterialCard& card, const UniaxialOptions& options);
+/// Specimen, card and options; nothing if no file is kept, since hashing a specimen takes its time.
+dem::Belonging belonging_of(const CheckpointPolicy& policy, const specimens::Specimen& specimen,
+                            const dem::MaterialCard& card, const UniaxialOptions& options);
 
-  /// Goes on from the checkpoint if that is wanted and it is there. Throws InputError if it does not fit.
-  void restore(dem::Assembly& assembly, dem::StepRoom& room, UniaxialRecord& record) const;
-
-  /// Writes a checkpoint when it is due. Throws Interrupted, after writing one, if a signal asked for a stop.
-  void look(dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record);
-
- private:
-  void write(dem::Assembly& assembly, const dem::StepRoom& room, const UniaxialRecord& record) const;
-
-  CheckpointPolicy policy;
-  dem::Belonging belonging;
-  Stopwatch since_written;
-};
+/// Every number of the record; `rebuilds`: of the contact list since the last stop.
+dem::NamedNumbers numbers_of(const UniaxialRecord& record, int rebuilds);
+/// Throws InputError that names `file` if a number is missing.
+void set_from(UniaxialRecord& record, const dem::NamedNumbers& numbers, const std::filesystem::path& file);
 
 }  // namespace virtual_tests

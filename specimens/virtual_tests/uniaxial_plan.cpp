@@ -4,16 +4,10 @@
 #include <cmath>
 
 #include "libdem/motion/critical_step.h"
-#include "libdem/statics/link_network.h"
 #include "specimens/virtual_tests/setup.h"
 
 namespace virtual_tests {
 namespace {
-
-double time_step_limit(const specimens::Specimen& specimen, const dem::Assembly& assembly) {
-  const dem::LinkNetwork network(specimen.centres, specimen.radii, specimen.links, assembly.law);
-  return dem::critical_time_step(network, assembly.particles);
-}
 
 /// Where tests of ordinary cards ended, in elastic strains: tension the later the more slowly its links soften.
 double likely_end(Loading loading, const dem::MaterialCard& card, double elastic_strain) {
@@ -38,7 +32,7 @@ UniaxialPlan make_plan(const specimens::Specimen& specimen, const dem::MaterialC
   dem::Platens platens =
       dem::find_platens(assembly.particles, axis, specimen.size[axis], specimen.element_size());
   const double strain_rate = velocity / platens.gauge_length;
-  const double critical = time_step_limit(specimen, assembly);
+  const double critical = dem::critical_time_step(link_network(specimen, assembly), assembly.particles);
   const double time_step = options.time_step_fraction * critical;
   // Damping acts fully on velocities above a thousandth of the platens': below that they are rounding, not
   // motion.

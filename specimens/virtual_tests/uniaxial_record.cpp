@@ -11,14 +11,6 @@
 namespace virtual_tests {
 namespace {
 
-/// Elastic energy and softening are functions of the state: read, not summed.
-void read_pair_energies(dem::EnergyLedger& ledger, const dem::Assembly& assembly) {
-  const dem::PairEnergy links = dem::pair_energy(assembly.law, assembly.particles, assembly.links);
-  const dem::PairEnergy contacts = dem::pair_energy(assembly.law, assembly.particles, assembly.contacts);
-  ledger.elastic = links.elastic + contacts.elastic;
-  ledger.softening = links.softening;
-}
-
 /// Reads the gauge at the window's middle: a stress sampled later than its strain would bias the modulus.
 void read_gauge(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Particles& particles) {
   const dem::AxialStrains strain = plan.gauge.measure(particles);
@@ -26,24 +18,6 @@ void read_gauge(UniaxialRecord& record, const UniaxialPlan& plan, const dem::Par
   record.point.strain = plan.strain_after(record.steps);
   record.point.strain_axial = -plan.sign * strain[a];
   record.point.strain_lateral = -plan.sign * 0.5 * (strain[(a + 1) % 3] + strain[(a + 2) % 3]);
-}
-
-LinkState state_of(const dem::LinkLaw& law, double max_strain) {
-  if (law.is_broken(max_strain)) return LinkState::broken;
-  return max_strain > law.yield_strain() ? LinkState::softening : LinkState::intact;
-}
-
-void read_fields(UniaxialResult& result, const dem::Assembly& assembly) {
-  const dem::Particles& particles = assembly.particles;
-  const dem::Links& links = assembly.links;
-  result.damage = dem::element_damage(assembly.law, links, particles.count);
-  for (std::size_t i = 0; i < particles.count; ++i) result.displacement.push_back(particles.displacement(i));
-  for (std::size_t k = 0; k < links.count; ++k) {
-    const dem::Vec3 a = particles.kinematics[static_cast<std::size_t>(links.a[k])].position();
-    const dem::Vec3 b = particles.kinematics[static_cast<std::size_t>(links.b[k])].position();
-    result.link_strain.push_back((b - a).norm() * links.inverse_initial_distance[k] - 1);
-    result.link_state.push_back(state_of(assembly.law, links.max_strain[k]));
-  }
 }
 
 }  // namespace
@@ -136,7 +110,7 @@ UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, dem::
   result.links = assembly.links.count;
   result.broken_links = dem::broken_links(assembly.law, assembly.links);
   result.contacts = assembly.contacts.count;
-  read_fields(result, assembly);
+  static_cast<FinalFields&>(result) = final_fields(assembly);
   result.detector_rebuilds = record.rebuilds + room.detector.rebuilds();
   result.state_sha256 = dem::state_sha256(assembly);
   result.wall_seconds = record.wall.seconds();

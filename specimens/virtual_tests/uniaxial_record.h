@@ -1,23 +1,13 @@
 // What a uniaxial test notes down while it runs: sums over windows of steps, the curve, the energy ledger.
 #pragma once
-#include <chrono>
-
 #include "libdem/drive/platen_friction.h"
 #include "libdem/probe/energy.h"
 #include "libdem/run/step.h"
 #include "specimens/virtual_tests/curve.h"
+#include "specimens/virtual_tests/stopwatch.h"
 #include "specimens/virtual_tests/uniaxial_plan.h"
 
 namespace virtual_tests {
-
-/// Seconds since it was made, and those of the parts before a stop.
-struct Stopwatch {
-  double before = 0;  ///< [s]
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double seconds() const {
-    return before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-};
 
 /// Everything that changes from step to step besides the assembly: what a checkpoint must keep.
 struct UniaxialRecord {

@@ -73,6 +73,83 @@ TEST_F(VirtualTest, TensionLeavesItsKeysAndCurves) {
   EXPECT_THAT(read("out/curves.csv"), testing::StartsWith("strain[-],stress[Pa]"));
 }
 
+TEST_F(VirtualTest, ListNamesEachTestWithALine) {
+  const auto list = spall({"test", "--list"});
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const char* line : {"elastic      Young", "tension      Uniaxial", "compression  Uniaxial",
+                           "splitting    Brazilian", "bending      Three-point", "shear        Direct"})
+    EXPECT_THAT(list.out, HasSubstr(line));
+}
+
+TEST_F(VirtualTest, LaboratoryTestsLeaveTheirKeysCurvesAndFields) {
+  make_specimen();
+  struct Case {
+    std::string kind;
+    std::vector<std::string> options, keys;
+    std::string header;
+  };
+  for (const Case& one : {Case{"splitting",
+                               {"--strip-width", "40 mm"},
+                               {"splitting_strength", "largest_force"},
+                               "closing[m],force[N]"},
+                          Case{"bending",
+                               {"--notch", "60 mm", "--stop-at", "0.8"},
+                               {"bending_strength", "fracture_energy", "span"},
+                               "displacement[m],force[N],stress[Pa],deflection[m],crack_mouth_opening[m]"},
+                          Case{"shear",
+                               {"--normal-stress", "1 MPa"},
+                               {"shear_strength", "normal_stress"},
+                               "displacement[m],force[N],stress[Pa],dilation[m],normal_stress[Pa]"}}) {
+    SCOPED_TRACE(one.kind);
+    std::vector<std::string> more = one.options;
+    more.insert(more.end(), {"--rate", "0.05"});
+    const auto run = spall(test(one.kind, more));
+    ASSERT_EQ(run.code, 0) << run.err;
+    const auto result = json("out/result.json");
+    expect_keys(result, one.keys);
+    expect_keys(result,
+                {"broken_links", "links", "damage", "steps", "time_step", "threads", "step_loop_seconds",
+                 "wall_seconds", "energy_balance_error", "unbalanced_force_ratio", "state_sha256"});
+    EXPECT_EQ(result["test"], one.kind);
+    EXPECT_GT(result[one.keys[0]].get<double>(), 5e5);
+    EXPECT_THAT(read("out/curves.csv"), testing::StartsWith(one.header));
+    EXPECT_THAT(files(), IsSupersetOf({"out/fields.h5", "out/links.h5", "out/report.html"}));
+    EXPECT_THAT(read("out/report.html"), HasSubstr("force"));
+  }
+}
+
+TEST_F(VirtualTest, ARateCheckSaysWhatHalfTheSpeedDoes) {
+  make_specimen();
+  const auto run = spall(test("tension", {"--rate", "0.1", "--stop-at", "0.9", "--rate-check"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("at half the speed peak stress is"));
+  const auto result = json("out/result.json");
+  const auto& check = result["rate_check"];
+  EXPECT_EQ(check["quantity"], "peak_stress");
+  EXPECT_DOUBLE_EQ(check["velocity"].get<double>(), 0.5 * result["velocity"].get<double>());
+  EXPECT_NEAR(check["change"].get<double>(),
+              check["value"].get<double>() / result["peak_stress"].get<double>() - 1, 1e-12);
+}
+
+TEST_F(VirtualTest, LaboratoryTestsRefuseWhatTheyCannotDo) {
+  make_specimen();
+  EXPECT_THAT(refusal(2, test("splitting", {"--strip-width", "1 mm"})),
+              AllOf(HasSubstr("strip_width"), HasSubstr("elements")));
+  EXPECT_THAT(refusal(2, test("splitting", {"--strip-width", "15"})), HasSubstr("--strip-width"));
+  EXPECT_THAT(refusal(2, test("bending", {"--span", "0.5 m"})), AllOf(HasSubstr("span"), HasSubstr("allowed")));
+  EXPECT_THAT(refusal(2, test("bending", {"--notch", "0.15 m"})), AllOf(HasSubstr("notch"), HasSubstr("0.6")));
+  EXPECT_THAT(refusal(2, test("bending", {"--axis", "x", "--depth-axis", "x"})), HasSubstr("depth_axis"));
+  EXPECT_THAT(refusal(2, test("bending", {"--velocity", "1 mm/s", "--rate", "0.1"})), HasSubstr("--rate"));
+  EXPECT_THAT(refusal(2, test("shear", {"--gap", "0.5 m"})), AllOf(HasSubstr("gap"), HasSubstr("allowed")));
+  EXPECT_THAT(refusal(2, test("shear", {"--normal-stress", "-1 MPa"})), HasSubstr("not positive"));
+  EXPECT_THAT(refusal(2, {"test", "spliting"}), HasSubstr("did you mean \"splitting\"?"));
+  const auto made = spall({"specimen", "make", "--shape", "cylinder", "--size", "0.1x0.2 m", "--elements",
+                           "1400", "-o", "s1.h5", "--quiet"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(refusal(2, test("bending")), HasSubstr("cylinder"));
+  EXPECT_THAT(refusal(2, test("splitting", {"--axis", "z"})), HasSubstr("axis"));
+}
+
 TEST_F(VirtualTest, WrongInputsAreRefusedBeforeAnythingIsWritten) {
   make_specimen();
   EXPECT_THAT(refusal(2, test("tension", {"--velocity", "0.02"})),

@@ -31,8 +31,7 @@ study::VirtualTest virtual_test(study::TestKind kind) {
   study::VirtualTest test;
   test.name = std::string(study::name_of(kind));
   test.kind = kind;
-  test.options.loading = kind == study::TestKind::compression ? virtual_tests::Loading::compression
-                                                              : virtual_tests::Loading::tension;
+  test.options = virtual_tests::description_of(kind).defaults;
   return test;
 }
 
@@ -198,15 +197,16 @@ TEST(StudyPlan, AResultsNameHasAllThatItDependsOnAndNothingElse) {
         &virtual_tests::UniaxialOptions::max_strain, &virtual_tests::UniaxialOptions::expected_strength,
         &virtual_tests::UniaxialOptions::time_step_fraction}) {
     study::VirtualTest test = tension;
-    test.options.*number += 0.01;
+    std::get<virtual_tests::UniaxialOptions>(test.options).*number += 0.01;
     EXPECT_TRUE(differs(recipe(1), card, test));
   }
   study::VirtualTest test = tension;
-  test.options.ends = dem::EndCondition::fixed;
+  std::get<virtual_tests::UniaxialOptions>(test.options).ends = dem::EndCondition::fixed;
   EXPECT_TRUE(differs(recipe(1), card, test));
 
   test = tension;
-  test.name = "another", test.options.threads = 7;
+  test.name = "another";
+  virtual_tests::set_threads(test.options, 7);
   auto renamed = recipe(1);
   renamed.group = "another", renamed.packing.threads = 3;
   dem::MaterialCard named;
@@ -246,6 +246,6 @@ TEST(StudyEstimate, GrowsWithTheWork) {
   EXPECT_GT(base, seconds(recipe(1), virtual_test(study::TestKind::elastic)));
   // Twice the elements along each side: eight times the elements, twice the steps.
   EXPECT_NEAR(seconds(recipe(1, 8 * 2700), compression) / base, 16, 0.1);
-  compression.options.rate = 0.005;
+  std::get<virtual_tests::UniaxialOptions>(compression.options).rate = 0.005;
   EXPECT_NEAR(seconds(recipe(1), compression) / base, 2, 1e-12);
 }

@@ -146,16 +146,18 @@ TEST(TaskResult, ComesBackFromItsFileWithTheSameBits) {
                    {"passed_peak", true},
                    {"ends", std::string("free")},
                    {"nu", std::numeric_limits<double>::quiet_NaN()}};
-  result.curve = {{1e-5 / 3, 2e6 / 7, 1e-5, -2e-6, 0.1, 0.01}, {2e-5 / 3, 3e6 / 7, 2e-5, -4e-6, 0.2, 0.02}};
+  result.curve.columns = {{"closing", "m"}, {"force", "N"}, {"broken", "-"}};
+  result.curve.values = {1e-5 / 3, 2e6 / 7, 0.1, 2e-5 / 3, 3e6 / 7, 0.2};
   const auto back = study::result_from(nlohmann::ordered_json::parse(study::to_json(result).dump()), "x.json");
   EXPECT_EQ(back.key, key_a);
   ASSERT_EQ(back.values.size(), 5u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(back.values[k], result.values[k]);
   EXPECT_TRUE(std::isnan(study::number_of(back.values, "nu")));
   EXPECT_EQ(study::number_of(back.values, "links"), 12345);
-  ASSERT_EQ(back.curve.size(), 2u);
-  EXPECT_EQ(back.curve[1].stress, result.curve[1].stress);
-  EXPECT_EQ(back.curve[1].broken, 0.2);
+  EXPECT_EQ(back.curve.values, result.curve.values);
+  ASSERT_EQ(back.curve.columns.size(), 3u);
+  EXPECT_EQ(back.curve.columns[1].name, "force");
+  EXPECT_EQ(back.curve.columns[1].unit, "N");
 }
 
 class Runner : public Folder {};

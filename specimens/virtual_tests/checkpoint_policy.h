@@ -1,0 +1,15 @@
+// How a long virtual test can be stopped and go on.
+#pragma once
+#include <filesystem>
+
+namespace virtual_tests {
+
+/// Without a file a stopped test starts anew.
+struct CheckpointPolicy {
+  std::filesystem::path file{};  ///< empty: no checkpoint is kept
+  double seconds_between = 60;   ///< it is also written this often, so that a crash costs no more [s]
+  bool resume = false;           ///< go on from `file`, if it is there
+  long stop_after = 0;           ///< stop after this step as if a signal had come; 0: never
+};
+
+}  // namespace virtual_tests
