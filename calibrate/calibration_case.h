@@ -26,7 +26,7 @@ struct Parameter {
 /// How the press of one kind of test is imitated.
 struct PressOptions {
   dem::EndCondition ends = dem::EndCondition::free;
-  double platen_friction = 0.2;  ///< of rough platens
+  double platen_friction = 0.1;  ///< of rough platens
   double rate = 0;               ///< see UniaxialOptions; 0: its default
 };
 

@@ -21,9 +21,8 @@ std::string_view name_of(Loading loading);
 struct UniaxialOptions {
   Loading loading = Loading::tension;
   dem::EndCondition ends = dem::EndCondition::free;
-  double platen_friction =
-      0.2;        ///< coefficient between rough platens and concrete [-]; counts where ends are rough
-  int axis = -1;  ///< 0, 1, 2; negative: the specimen's long axis
+  double platen_friction = 0.1;  ///< between rough platens and concrete [-]; counts where ends are rough
+  int axis = -1;                 ///< 0, 1, 2; negative: the specimen's long axis
   double expected_strength =
       0;                ///< [Pa]; 0: guessed from the card. Sets the speed and the sampling, not the physics
   double velocity = 0;  ///< closing speed of the platens [m/s]; 0: from `rate`

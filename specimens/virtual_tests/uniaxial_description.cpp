@@ -119,7 +119,7 @@ TestDescription uniaxial_description(Loading loading) {
   if (!tension)
     test.options.insert(test.options.begin() + 2,
                         number_option<O>(
-                            "platen_friction", 0, 2, "0.2", "Coefficient of friction of rough platens",
+                            "platen_friction", 0, 2, "0.1", "Coefficient of friction of rough platens",
                             [](auto& o) -> auto& { return o.platen_friction; }));
   test.measured = {{"peak_stress", "Pa", "peak stress"},
                    {"peak_strain", "-", "strain at the peak"},
