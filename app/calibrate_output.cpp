@@ -24,8 +24,8 @@ Json card_json(const dem::MaterialCard& card) {
 }
 
 Json target_json(const calibrate::TargetResult& result) {
-  const calibrate::Display display = calibrate::display(result.target.quantity);
-  return {{"name", calibrate::name_of(result.target.quantity)},
+  const calibrate::Display display = calibrate::display(result.target);
+  return {{"name", calibrate::name_of(result.target)},
           {"words", display.words},
           {"unit", display.unit},
           {"scale", display.scale},

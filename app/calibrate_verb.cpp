@@ -21,7 +21,7 @@ struct CalibrateOptions {
 
 void tell(Console& console, const calibrate::CalibrationResult& found) {
   for (const calibrate::TargetResult& result : found.targets) {
-    const calibrate::Display display = calibrate::display(result.target.quantity);
+    const calibrate::Display display = calibrate::display(result.target);
     const char* verdict = result.met() ? "met" : "MISSED";
     const std::string unit = display.unit == "-" ? "" : fmt::format("{} ", display.unit);
     if (calibrate::is_curve(result.target.quantity))

@@ -159,7 +159,7 @@ std::vector<TargetResult> mean_targets(const std::vector<SpecimenOutcome>& list)
 }
 
 std::string in_words(const TargetResult& r) {
-  const Display d = display(r.target.quantity);
+  const Display d = display(r.target);
   if (is_curve(r.target.quantity))
     return fmt::format("{}: {:.2g}% of the peak off (allowed {:.2g}%)", d.words, 100 * r.achieved,
                        100 * r.target.tolerance);
@@ -206,7 +206,7 @@ void write_provenance(const CalibrationCase& wanted, CalibrationResult& result) 
     std::string text = in_words(r) + (r.met() ? ", met" : ", MISSED") + "; source: " + r.target.source;
     if (t < result.unseen_targets.size() && !is_curve(r.target.quantity))
       text += fmt::format("; unseen specimens {:+.1f}%", 100 * result.unseen_targets[t].relative_error());
-    notes.emplace_back(fmt::format("target_{}", name_of(r.target.quantity)), text);
+    notes.emplace_back(fmt::format("target_{}", name_of(r.target)), text);
   }
   std::string fitted, unseen;
   for (const SpecimenOutcome& o : result.specimens) {
@@ -272,8 +272,8 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
     if (wanted.slip_softening.free) detail += fmt::format(", slip softening {:.3g}", step.card.slip_softening);
     detail += ':';
     for (const TargetResult& r : step.targets) {
-      const Display d = display(r.target.quantity);
-      detail += fmt::format(" {} {:.3g}/{:.3g}", name_of(r.target.quantity), r.achieved / d.scale,
+      const Display d = display(r.target);
+      detail += fmt::format(" {} {:.3g}/{:.3g}", name_of(r.target), r.achieved / d.scale,
                             (is_curve(r.target.quantity) ? r.target.tolerance : r.target.value) / d.scale);
     }
     report(step.stage, step.evaluation, 0, detail);

@@ -25,6 +25,8 @@ std::string_view name_of(Quantity quantity) {
       return "tension_curve";
     case Quantity::compression_curve:
       return "compression_curve";
+    case Quantity::laboratory:
+      return "laboratory";
   }
   return "";
 }
@@ -49,8 +51,20 @@ Display display(Quantity quantity) {
       return {"tension curve", "% of the peak", 1e-2};
     case Quantity::compression_curve:
       return {"compression curve", "% of the peak", 1e-2};
+    case Quantity::laboratory:
+      return {"laboratory test", "-", 1};
   }
   return {"", "", 1};
+}
+
+std::string_view name_of(const Target& target) {
+  return target.quantity == Quantity::laboratory ? target.laboratory.name : name_of(target.quantity);
+}
+
+Display display(const Target& target) {
+  return target.quantity == Quantity::laboratory
+             ? Display{target.laboratory.words, target.laboratory.unit, target.laboratory.scale}
+             : display(target.quantity);
 }
 
 bool is_curve(Quantity quantity) {

@@ -16,6 +16,7 @@ enum class Quantity {
   compression_peak_strain,  ///< [-]
   tension_curve,            ///< root mean square difference over the peak stress [-]
   compression_curve,        ///< the same
+  laboratory,               ///< a quantity that another laboratory test measures, see Target
 };
 
 /// "E", "nu", "ft", "ft_strain", "Gf", "fc", "fc_strain", "tension_curve", "compression_curve".
@@ -30,6 +31,14 @@ bool is_curve(Quantity quantity);
 bool needs_tension(Quantity quantity);
 bool needs_compression(Quantity quantity);
 
+/// What another laboratory test measures: the test's place in the case and the quantity's key and words.
+struct LaboratoryQuantity {
+  std::size_t test = 0;
+  std::string name;  ///< "splitting.splitting_strength"
+  std::string key, words, unit;
+  double scale = 1;
+};
+
 /// One target. A curve's value is 0 and its tolerance bounds the root mean square difference over the peak
 /// stress.
 struct Target {
@@ -37,7 +46,10 @@ struct Target {
   double value = 0;      ///< SI
   double tolerance = 0;  ///< relative
   std::string source;  ///< where the number comes from: "given", "mean of 5 curves", "fib Model Code 2010, ..."
+  LaboratoryQuantity laboratory{};  ///< of Quantity::laboratory
 };
+std::string_view name_of(const Target& target);
+Display display(const Target& target);
 
 struct TargetResult {
   Target target;
