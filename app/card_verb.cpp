@@ -9,6 +9,7 @@
 #include "libdem/config/nearest_name.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/material/element_size_rule.h"
 #include "libdem/material/material_card.h"
 #include "libdem/material/micro_macro.h"
 
@@ -19,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 struct CardOptions {
   CommonOptions common;
-  std::string card, format, output;
+  std::string card, format, from, to, output;
 };
 
 Json to_json(const dem::MaterialCard& card) {
@@ -93,6 +94,14 @@ int export_card(const CardOptions& options) {
   return deliver(options, to_csv(card), to_json(card));
 }
 
+int rescale(const CardOptions& options) {
+  const dem::MaterialCard card = dem::read_card(options.card);
+  const dem::MaterialCard made =
+      dem::for_element_size(card, dem::parse_quantity(options.from, dem::Quantity::length, "--from"),
+                            dem::parse_quantity(options.to, dem::Quantity::length, "--to"));
+  return deliver(options, dem::to_toml(made), to_json(made));
+}
+
 int write_example(const CardOptions& options) {
   dem::MaterialCard card;
   card.name = "Table 2 of the paper";
@@ -128,6 +137,16 @@ void add_card(CLI::App& root, Invocation& invocation) {
   exporter->add_option("--to", options->format, "Format: csv (yade-jcfpm, yade-cpm and lammps-bpm are planned)")
       ->required();
   exporter->add_option("-o,--output", options->output, "File to write (default: standard output)");
+  CLI::App* scaler =
+      add("rescale", "Bring a card to elements of another size: same tensile strength and fracture energy",
+          make_one + "spall card rescale card.toml --from \"23 mm\" --to \"15 mm\" -o finer.toml", rescale);
+  scaler->add_option("card", options->card, "Material card (TOML)")->required();
+  scaler
+      ->add_option("--from", options->from,
+                   "Size of the elements that it was fitted to, as \"23 mm\"; see specimen inspect")
+      ->required();
+  scaler->add_option("--to", options->to, "Size of the elements that it is wanted for")->required();
+  scaler->add_option("-o,--output", options->output, "File to write (default: standard output)");
   add("example", "Write a valid card to begin with: Table 2 of the paper", "spall card example -o card.toml",
       write_example)
       ->add_option("-o,--output", options->output, "File to write (default: standard output)");

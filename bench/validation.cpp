@@ -1,5 +1,5 @@
 // The figures of docs/validation.md that take many specimens: `./dev validate`, or one part of it,
-// spall_validation elastic|strength|packing|sizes|impact|slab|slab-cards|slab-long.
+// spall_validation elastic|strength|packing|sizes|fracture|impact|slab|slab-cards|slab-long.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -148,6 +148,7 @@ int main(int count, char** arguments) {
   run("strength", strength);
   run("packing", packing);
   run("sizes", bench::validate_sizes);
+  run("fracture", bench::validate_fracture);
   run("impact-waves", bench::validate_impact_waves);
   run("impact-energy", bench::validate_impact_energy);
   run("impact-slab", bench::validate_impact_slab);

@@ -6,6 +6,7 @@ namespace bench {
 /// Whether strength and moduli depend on the specimen's size and shape: all shapes of the paper's Table 1, the
 /// skin that a face leaves, and what else could make a trend (speed, end condition, size itself).
 void validate_sizes();
+void validate_fracture();
 
 // The coupling where nothing breaks; `impact` runs all four.
 

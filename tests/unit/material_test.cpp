@@ -11,6 +11,7 @@
 #include "libdem/core/error.h"
 #include "libdem/core/random.h"
 #include "libdem/material/card_numbers.h"
+#include "libdem/material/element_size_rule.h"
 #include "libdem/material/material_card.h"
 #include "libdem/material/micro_macro.h"
 
@@ -208,6 +209,18 @@ TEST(MaterialCard, IsWrittenInUnitsThatPeopleUse) {
   EXPECT_THAT(
       dem::to_toml(dem::MaterialCard{}),
       AllOf(HasSubstr("E = \"30 GPa\""), HasSubstr("T = \"3.1 MPa\""), HasSubstr("phi_i = \"6 degree\"")));
+}
+
+TEST(ElementSizeRule, KeepsAllButTensileStrengthAndSofteningAndUndoesItself) {
+  const dem::MaterialCard card;
+  const dem::MaterialCard finer = dem::for_element_size(card, 0.018, 0.006);
+  EXPECT_NEAR(finer.softening, card.softening * std::pow(3, 0.45), 1e-12);
+  EXPECT_NEAR(finer.tensile_strength, card.tensile_strength * std::pow(3, -0.19), 1e-6);
+  EXPECT_EQ(finer.cohesion, card.cohesion);
+  EXPECT_EQ(finer.young_modulus, card.young_modulus);
+  EXPECT_NEAR(dem::for_element_size(finer, 0.006, 0.018).softening, card.softening, 1e-12);
+  EXPECT_THROW(dem::for_element_size(card, 0, 0.01), dem::InputError);
+  EXPECT_THROW(dem::for_element_size(card, 0.1, 0.001), dem::InputError);
 }
 
 TEST(MaterialCard, ShippedCardsAreValid) {
