@@ -178,7 +178,7 @@ Json sensitivity_json(const calibrate::Identifiability& found) {
   for (std::size_t q = 0; q < found.quantities.size() && q < found.sensitivity.size(); ++q) {
     Json row{{"name", calibrate::name_of(found.quantities[q])},
              {"words", calibrate::display(found.quantities[q]).words},
-             {"curve", calibrate::is_curve(found.quantities[q])}};
+             {"curve", calibrate::is_curve(found.quantities[q].quantity)}};
     for (std::size_t p = 0; p < found.parameters.size(); ++p)
       row["by"][found.parameters[p].name] = found.sensitivity[q][p];
     list.push_back(std::move(row));

@@ -13,6 +13,7 @@
 #include "libdem/drive/platens.h"
 #include "libdem/material/material_card.h"
 #include "specimens/packing.h"
+#include "specimens/virtual_tests/test_options.h"
 
 namespace calibrate {
 
@@ -30,6 +31,14 @@ struct PressOptions {
   double rate = 0;               ///< see UniaxialOptions; 0: its default
 };
 
+/// Another laboratory test, some of whose quantities are targets.
+struct LaboratoryTest {
+  std::string name;  ///< unique in the case
+  virtual_tests::TestOptions options;
+  std::optional<specimens::PackingOptions> packing;  ///< of specimens of its own, with the case's seeds
+  std::vector<std::string> quantities;               ///< keys of those that are targets
+};
+
 struct CalibrationCase {
   std::string name;
   std::filesystem::path file;
@@ -44,6 +53,7 @@ struct CalibrationCase {
   PressOptions tension, compression;
   double damping = 0.3;
   std::vector<Target> targets;
+  std::vector<LaboratoryTest> laboratory;
   double check_tolerance = 0.06;  ///< relative, of targets on specimens that the fit never saw
   std::optional<lab::Series> tension_series, compression_series;  ///< laboratory curves, if there are any
   std::optional<lab::LabCurve> tension_reference,

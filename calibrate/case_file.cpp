@@ -230,7 +230,7 @@ const Target* CalibrationCase::target(Quantity quantity) const {
 
 CalibrationCase read_case(const fs::path& file) {
   const TomlTable root = TomlTable::read(file);
-  root.allow_only({"name", "concrete", "specimen", "targets", "tension", "compression", "code", "fixed",
+  root.allow_only({"name", "concrete", "specimen", "targets", "tension", "compression", "code", "fixed", "test",
                    "start", "damping", "notes"});
   CalibrationCase result;
   result.file = file;
@@ -272,6 +272,7 @@ CalibrationCase read_case(const fs::path& file) {
   } else {
     read_specimens(TomlTable::parse("shape = \"box\"", file.string()), result);
   }
+  read_laboratory_tests(root, result);
   root.finish();
   return result;
 }

@@ -24,10 +24,17 @@ void read_tolerances(const dem::TomlTable& targets, CalibrationCase& result);
 /// them.
 void refuse_impossible_targets(const CalibrationCase& result);
 
+// case_laboratory.cpp
+
+/// [[test]]: other laboratory tests and their targets. Once [specimen] is read.
+void read_laboratory_tests(const dem::TomlTable& root, CalibrationCase& result);
+
 // case_specimens.cpp
 
 /// [specimen]: packed from seeds, or cut out of a structure (which is read and cut once here, so that whatever
 /// is wrong with it is told before anything is computed or written).
 void read_specimens(const dem::TomlTable& specimen, CalibrationCase& result);
+/// shape, size, elements and size_ratio of a packing, checked.
+specimens::PackingOptions read_packing(const dem::TomlTable& table);
 
 }  // namespace calibrate

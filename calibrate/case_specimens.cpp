@@ -49,6 +49,12 @@ dem::Vec3 read_size(const TomlTable& table, bool cylinder) {
   return sides;
 }
 
+void read_shape(const TomlTable& table, specimens::PackingOptions& packing) {
+  const bool cylinder = table.choice("shape", {"box", "cylinder"}, "box") == "cylinder";
+  packing.shape = cylinder ? specimens::Shape::cylinder : specimens::Shape::box;
+  packing.size = read_size(table, cylinder);
+}
+
 std::vector<std::uint64_t> read_seeds(const TomlTable& table, const char* key,
                                       std::vector<std::uint64_t> fallback) {
   if (!table.has(key)) return fallback;
@@ -98,19 +104,10 @@ void read_cuts(const TomlTable& table, CalibrationCase& result) {
   result.inputs.push_back(result.structure);
 }
 
-void read_packing(const TomlTable& table, CalibrationCase& result) {
+void read_seeded(const TomlTable& table, CalibrationCase& result) {
   refuse_keys(table, {"fit_centres", "check_centres"}, "says where to cut, but not from what",
               "name the structure with cut_from = \"slab.h5\", or give fit_seeds and check_seeds");
-  specimens::PackingOptions& packing = result.packing;
-  packing.elements =
-      static_cast<std::size_t>(table.has("elements") ? table.integer("elements", 1, 10'000'000) : 2700);
-  if (const auto ratio = table.optional_number("size_ratio")) packing.grading.size_ratio = *ratio;
-  told_about(table, "size_ratio", [&] { packing.grading.validate(); });
-  told_about(table, "elements", [&] {
-    packing.validate();
-    specimens::require_enough_elements(packing.shape, packing.size, packing.elements);
-    specimens::require_enough_inside(packing.shape, packing.size, packing.elements);
-  });
+  result.packing = read_packing(table);
   result.fit_seeds = read_seeds(table, "fit_seeds", {1, 2, 3, 4});
   result.check_seeds = read_seeds(table, "check_seeds", {101, 102, 103});
   if (result.fit_seeds.empty()) table.fail("fit_seeds", "is empty", "name at least one seed");
@@ -127,14 +124,27 @@ void read_packing(const TomlTable& table, CalibrationCase& result) {
 
 }  // namespace
 
+specimens::PackingOptions read_packing(const TomlTable& table) {
+  specimens::PackingOptions packing;
+  read_shape(table, packing);
+  packing.elements =
+      static_cast<std::size_t>(table.has("elements") ? table.integer("elements", 1, 10'000'000) : 2700);
+  if (const auto ratio = table.optional_number("size_ratio")) packing.grading.size_ratio = *ratio;
+  told_about(table, "size_ratio", [&] { packing.grading.validate(); });
+  told_about(table, "elements", [&] {
+    packing.validate();
+    specimens::require_enough_elements(packing.shape, packing.size, packing.elements);
+    specimens::require_enough_inside(packing.shape, packing.size, packing.elements);
+  });
+  return packing;
+}
+
 void read_specimens(const TomlTable& specimen, CalibrationCase& result) {
-  const bool cylinder = specimen.choice("shape", {"box", "cylinder"}, "box") == "cylinder";
-  result.packing.shape = cylinder ? specimens::Shape::cylinder : specimens::Shape::box;
-  result.packing.size = read_size(specimen, cylinder);
+  read_shape(specimen, result.packing);
   if (specimen.has("cut_from"))
     read_cuts(specimen, result);
   else
-    read_packing(specimen, result);
+    read_seeded(specimen, result);
 }
 
 }  // namespace calibrate

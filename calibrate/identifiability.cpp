@@ -41,8 +41,10 @@ Identifiability assess(const CalibrationCase& wanted, TestBench& bench, const de
   for (const Target& target : wanted.targets) {
     round.tension = round.tension || needs_tension(target.quantity);
     round.compression = round.compression || needs_compression(target.quantity);
-    if (needs_tension(target.quantity) || needs_compression(target.quantity))
-      result.quantities.push_back(target.quantity);
+    round.laboratory = round.laboratory || target.quantity == Quantity::laboratory;
+    if (needs_tension(target.quantity) || needs_compression(target.quantity) ||
+        target.quantity == Quantity::laboratory)
+      result.quantities.push_back(target);
   }
   if (slots.empty()) return result;
 

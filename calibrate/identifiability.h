@@ -23,7 +23,7 @@ struct ParameterVerdict {
 struct Identifiability {
   std::vector<ParameterVerdict> parameters;
   /// d ln(achieved)/d ln(parameter), rows as `quantities`, columns as `parameters`.
-  std::vector<Quantity> quantities;
+  std::vector<Target> quantities;
   std::vector<std::vector<double>> sensitivity;
 
   bool all_determined() const;

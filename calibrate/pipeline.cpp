@@ -21,20 +21,35 @@ using specimens::Specimen;
 struct SpecimenSet {
   std::vector<Specimen> specimens;
   std::vector<std::string> labels;
+  std::vector<std::vector<Specimen>> laboratory;  ///< by laboratory test; empty where it uses those above
 };
+
+std::vector<Specimen> pack_all(const specimens::PackingOptions& how, const std::vector<std::uint64_t>& seeds,
+                               int threads) {
+  std::vector<Specimen> made(seeds.size());
+  dem::for_each_in_parallel(seeds.size(), threads, [&](std::size_t k) {
+    specimens::PackingOptions packing = how;
+    packing.seed = seeds[k];
+    packing.threads = 1;
+    made[k] = specimens::make_specimen(packing);
+  });
+  return made;
+}
+
+std::vector<LaboratoryBench> laboratory_benches(const CalibrationCase& wanted, const SpecimenSet& set) {
+  std::vector<LaboratoryBench> benches;
+  for (std::size_t t = 0; t < wanted.laboratory.size(); ++t)
+    benches.push_back(
+        {&wanted.laboratory[t], wanted.laboratory[t].packing ? &set.laboratory[t] : &set.specimens});
+  return benches;
+}
 
 SpecimenSet make_set(const CalibrationCase& wanted, const std::vector<std::uint64_t>& seeds,
                      const std::vector<dem::Vec3>& centres, int threads) {
   SpecimenSet set;
   if (wanted.structure.empty()) {
     for (const std::uint64_t seed : seeds) set.labels.push_back(fmt::format("seed {}", seed));
-    set.specimens.resize(seeds.size());
-    dem::for_each_in_parallel(seeds.size(), threads, [&](std::size_t k) {
-      specimens::PackingOptions packing = wanted.packing;
-      packing.seed = seeds[k];
-      packing.threads = 1;
-      set.specimens[k] = specimens::make_specimen(packing);
-    });
+    set.specimens = pack_all(wanted.packing, seeds, threads);
   } else {
     const Specimen structure = specimens::read_specimen(wanted.structure);
     for (const dem::Vec3& c : centres)
@@ -44,6 +59,8 @@ SpecimenSet make_set(const CalibrationCase& wanted, const std::vector<std::uint6
       set.specimens[k] = specimens::extract(structure, wanted.packing.shape, centres[k], wanted.packing.size);
     });
   }
+  for (const LaboratoryTest& test : wanted.laboratory)
+    set.laboratory.push_back(test.packing ? pack_all(*test.packing, seeds, threads) : std::vector<Specimen>{});
   return set;
 }
 
@@ -135,13 +152,14 @@ std::vector<SpecimenOutcome> outcomes(const CalibrationCase& wanted, const Speci
     if (!tests.tension.empty()) own.tension = {tests.tension[s]}, o.tension = tests.tension[s];
     if (!tests.compression.empty())
       own.compression = {tests.compression[s]}, o.compression = tests.compression[s];
+    for (const std::vector<TestSummary>& of_test : tests.laboratory) own.laboratory.push_back({of_test[s]});
     for (const Target& target : wanted.targets) {
       if (target.quantity == Quantity::young_modulus)
         o.targets.push_back({target, o.young_modulus});
       else if (target.quantity == Quantity::poisson_ratio)
         o.targets.push_back({target, o.poisson_ratio});
       else
-        o.targets.push_back({target, achieved(target.quantity, own, wanted)});
+        o.targets.push_back({target, achieved(target, own, wanted)});
     }
     list.push_back(std::move(o));
   }
@@ -263,7 +281,7 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
   card.alpha = result.elastic.alpha, card.beta = result.elastic.beta, card.gamma = result.elastic.gamma;
   choose_start(wanted, card);
 
-  TestBench bench(fitted.specimens, protocol_for(wanted), journal, threads);
+  TestBench bench(fitted.specimens, protocol_for(wanted), journal, threads, laboratory_benches(wanted, fitted));
   const StageWatcher watch = [&](const StageStep& step) {
     result.history.push_back(step);
     std::string detail =
@@ -290,25 +308,26 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
       Quantity::compressive_strength, Quantity::compression_peak_strain, Quantity::compression_curve};
   std::vector<Quantity> all_targets = tension_targets;
   all_targets.insert(all_targets.end(), compression_targets.begin(), compression_targets.end());
-  Round both;
+  all_targets.push_back(Quantity::laboratory);
+  Round all{false, false, !wanted.laboratory.empty()};
   for (const Target& t : wanted.targets)
-    both.tension = both.tension || needs_tension(t.quantity),
-    both.compression = both.compression || needs_compression(t.quantity);
+    all.tension = all.tension || needs_tension(t.quantity),
+    all.compression = all.compression || needs_compression(t.quantity);
 
   result.stages.push_back(fit_stage("tension", wanted, bench, card, tension_slots, tension_targets,
                                     {true, false}, {.good_enough = 0.25, .max_evaluations = 15}, watch));
   result.stages.push_back(fit_stage("compression", wanted, bench, card, {slot_Co(), slot_zeta_s()},
                                     compression_targets, {false, true},
                                     {.first_radius = 1, .good_enough = 0.25, .max_evaluations = 8}, watch));
-  result.stages.push_back(fit_stage("closing", wanted, bench, card, free_slots(wanted), all_targets, both,
+  result.stages.push_back(fit_stage("closing", wanted, bench, card, free_slots(wanted), all_targets, all,
                                     {.good_enough = 0.4, .max_evaluations = 20}, watch));
 
   report("sensitivity", 0, 0, "what the data determine");
   result.identifiability = assess(wanted, bench, card);
 
   report("check", 0, 0, fmt::format("{} specimens that the fit never saw", unseen.specimens.size()));
-  TestBench check(unseen.specimens, protocol_for(wanted), journal, threads);
-  const Round each{true, true};  // the finished card shows both tests, aimed at or not
+  TestBench check(unseen.specimens, protocol_for(wanted), journal, threads, laboratory_benches(wanted, unseen));
+  const Round each{true, true, true};  // the finished card shows both tests, aimed at or not
   result.specimens = outcomes(wanted, fitted, bench, card, each, true, threads);
   result.targets = mean_targets(result.specimens);
   if (!unseen.specimens.empty()) {

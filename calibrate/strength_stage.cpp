@@ -59,8 +59,8 @@ std::size_t exponent_of(const std::string& parameter) {
 
 }  // namespace
 
-double achieved(Quantity quantity, const RoundResult& round, const CalibrationCase& wanted) {
-  switch (quantity) {
+double achieved(const Target& target, const RoundResult& round, const CalibrationCase& wanted) {
+  switch (target.quantity) {
     case Quantity::tensile_strength:
       return mean(round.tension, &TestSummary::peak_stress);
     case Quantity::tension_peak_strain:
@@ -75,8 +75,12 @@ double achieved(Quantity quantity, const RoundResult& round, const CalibrationCa
       return mean_difference(round.tension, wanted.tension_series);
     case Quantity::compression_curve:
       return mean_difference(round.compression, wanted.compression_series);
-    case Quantity::laboratory:
-      break;  // see compare
+    case Quantity::laboratory: {
+      const std::vector<TestSummary>& tests = round.laboratory[target.laboratory.test];
+      double total = 0;
+      for (const TestSummary& test : tests) total += test.measured[target.laboratory.quantity];
+      return total / static_cast<double>(tests.size());
+    }
     case Quantity::young_modulus:
     case Quantity::poisson_ratio:
       break;  // of the elastic stage
@@ -88,8 +92,9 @@ std::vector<TargetResult> compare(const CalibrationCase& wanted, const RoundResu
   std::vector<TargetResult> results;
   for (const Target& target : wanted.targets) {
     const bool there = (needs_tension(target.quantity) && !round.tension.empty()) ||
-                       (needs_compression(target.quantity) && !round.compression.empty());
-    if (there) results.push_back({target, achieved(target.quantity, round, wanted)});
+                       (needs_compression(target.quantity) && !round.compression.empty()) ||
+                       (target.quantity == Quantity::laboratory && !round.laboratory.empty());
+    if (there) results.push_back({target, achieved(target, round, wanted)});
   }
   return results;
 }

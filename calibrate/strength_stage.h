@@ -12,7 +12,7 @@
 namespace calibrate {
 
 /// Means over the specimens.
-double achieved(Quantity quantity, const RoundResult& round, const CalibrationCase& wanted);
+double achieved(const Target& target, const RoundResult& round, const CalibrationCase& wanted);
 
 /// All targets that the round's tests speak to.
 std::vector<TargetResult> compare(const CalibrationCase& wanted, const RoundResult& round);

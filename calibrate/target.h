@@ -31,11 +31,12 @@ bool is_curve(Quantity quantity);
 bool needs_tension(Quantity quantity);
 bool needs_compression(Quantity quantity);
 
-/// What another laboratory test measures: the test's place in the case and the quantity's key and words.
+/// What another laboratory test measures.
 struct LaboratoryQuantity {
-  std::size_t test = 0;
-  std::string name;  ///< "splitting.splitting_strength"
-  std::string key, words, unit;
+  std::size_t test = 0;      ///< its place in the case
+  std::string name;          ///< "splitting.splitting_strength"
+  std::size_t quantity = 0;  ///< its place among the test's quantities
+  std::string words, unit;   ///< see Display
   double scale = 1;
 };
 

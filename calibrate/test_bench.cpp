@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <functional>
+#include <tuple>
 
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
+#include "specimens/virtual_tests/catalogue.h"
 
 namespace calibrate {
 namespace {
 
 constexpr const char* journal_format = "spall-calibration-journal";
-constexpr std::size_t scalars = 10, columns = 6;
+constexpr int journal_version = 2;
+constexpr std::size_t scalars = 11, columns = 6;
 
 std::vector<double> pack(const TestSummary& s) {
   std::vector<double> values{s.peak_stress,
@@ -23,15 +28,21 @@ std::vector<double> pack(const TestSummary& s) {
                              s.energy_balance_error,
                              s.damage,
                              s.passed_peak ? 1.0 : 0.0,
-                             static_cast<double>(s.steps)};
+                             static_cast<double>(s.steps),
+                             static_cast<double>(s.measured.size())};
+  values.insert(values.end(), s.measured.begin(), s.measured.end());
   for (const virtual_tests::CurvePoint& p : s.curve)
     values.insert(values.end(), {p.strain, p.stress, p.strain_axial, p.strain_lateral, p.broken, p.unbalanced});
   return values;
 }
 
 TestSummary unpack(const std::vector<double>& v) {
-  TestSummary s{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8] != 0, static_cast<std::int64_t>(v[9]), {}};
-  for (std::size_t k = scalars; k + columns <= v.size(); k += columns)
+  TestSummary s{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8] != 0, static_cast<std::int64_t>(v[9]),
+                {},   {}};
+  const std::size_t measured = std::min(static_cast<std::size_t>(v[10]), v.size() - scalars);
+  const auto first = v.begin() + static_cast<std::ptrdiff_t>(scalars);
+  s.measured.assign(first, first + static_cast<std::ptrdiff_t>(measured));
+  for (std::size_t k = scalars + measured; k + columns <= v.size(); k += columns)
     s.curve.push_back({v[k], v[k + 1], v[k + 2], v[k + 3], v[k + 4], v[k + 5]});
   return s;
 }
@@ -42,14 +53,14 @@ TestSummary summarise(virtual_tests::UniaxialResult result) {
           result.work_of_fracture,     result.unbalanced_force_ratio,
           result.energy_balance_error, result.damage_ratio(),
           result.passed_peak,          result.steps,
-          std::move(result.curve)};
+          std::move(result.curve),     {}};
 }
 
 }  // namespace
 
 TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::move(path)) {
   if (!resume || !std::filesystem::exists(file)) return;
-  const dem::Hdf5File in = dem::open_spall_file(file, journal_format, 1);
+  const dem::Hdf5File in = dem::open_spall_file(file, journal_format, journal_version);
   if (!in.has("tests")) return;
   for (const std::string& name : in.names_in("tests")) {
     const std::vector<double> values = in.read<double>("tests/" + name);
@@ -66,39 +77,82 @@ void TestJournal::add(const std::string& key, TestSummary summary) { summaries[k
 
 void TestJournal::save() const {
   if (file.empty()) return;
-  dem::create_spall_file(file, journal_format, 1, [&](dem::Hdf5File& out) {
+  dem::create_spall_file(file, journal_format, journal_version, [&](dem::Hdf5File& out) {
     for (const auto& [name, summary] : summaries) out.write("tests/" + name, pack(summary));
   });
 }
 
 TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, TestProtocol how, TestJournal& results,
-                     int thread_count)
-    : all(wanted), protocol(how), journal(results), threads(thread_count) {
+                     int thread_count, std::vector<LaboratoryBench> others)
+    : all(wanted), laboratory(std::move(others)), protocol(how), journal(results), threads(thread_count) {
   for (const specimens::Specimen& specimen : all) specimen_hashes.push_back(specimen.sha256());
+  for (const LaboratoryBench& bench : laboratory) {
+    laboratory_hashes.emplace_back();
+    for (const specimens::Specimen& specimen : *bench.specimens)
+      laboratory_hashes.back().push_back(specimen.sha256());
+  }
 }
 
-std::string TestBench::key(std::size_t specimen, const dem::MaterialCard& card,
-                           const virtual_tests::UniaxialOptions& o) const {
-  std::string text = specimen_hashes[specimen] + "|" + dem::identity_text(card);
-  text += fmt::format("|{}|{}|{}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}|{:a}", virtual_tests::name_of(o.loading),
-                      dem::name_of(o.ends), o.axis, o.platen_friction, o.expected_strength, o.velocity, o.rate,
-                      o.damping, o.time_step_fraction, o.stop_at, o.max_strain);
-  return dem::sha256_of(text);
+namespace {
+
+/// One test on one specimen.
+struct Task {
+  std::vector<TestSummary>* list;  ///< where its summary goes
+  std::string key;
+  std::function<TestSummary()> run;
+  std::exception_ptr failure{};
+  TestSummary summary{};
+};
+
+TestSummary summarise(const virtual_tests::TestOutcome& outcome, const LaboratoryTest& test) {
+  TestSummary summary;
+  for (const std::string& quantity : test.quantities) summary.measured.push_back(outcome.value(quantity));
+  if (!outcome.run) return summary;
+  summary.unbalanced_force_ratio = outcome.run->unbalanced_force_ratio;
+  summary.energy_balance_error = outcome.run->energy_balance_error;
+  summary.passed_peak = outcome.run->passed_peak;
+  summary.steps = outcome.run->steps;
+  return summary;
 }
+
+}  // namespace
 
 RoundResult TestBench::run(const dem::MaterialCard& card, Round round) {
-  struct Task {
-    std::size_t specimen;
-    const virtual_tests::UniaxialOptions* options;
-    std::string key;
-    std::exception_ptr failure;
-    TestSummary summary;
+  const std::string card_text = dem::identity_text(card);
+  const auto key_of = [&](const std::string& specimen, const virtual_tests::TestOptions& options,
+                          const std::string& more) {
+    return dem::sha256_of(
+        fmt::format("{}|{}|{}|{}", specimen, card_text, virtual_tests::text_of(options), more));
   };
+  RoundResult result;
   std::vector<Task> tasks;  // the longest first, so that the cores end together
-  for (const auto& [wanted, options] :
-       {std::pair(round.compression, &protocol.compression), std::pair(round.tension, &protocol.tension)})
-    for (std::size_t s = 0; wanted && s < all.size(); ++s)
-      tasks.push_back({s, options, key(s, card, *options), nullptr, {}});
+  if (round.laboratory) {
+    result.laboratory.resize(laboratory.size());
+    for (std::size_t t = 0; t < laboratory.size(); ++t)
+      for (std::size_t s = 0; s < all.size(); ++s) {
+        const LaboratoryTest& test = *laboratory[t].test;
+        const specimens::Specimen& specimen = (*laboratory[t].specimens)[s];
+        tasks.push_back(
+            {&result.laboratory[t],
+             key_of(laboratory_hashes[t][s], test.options, fmt::format("{}", fmt::join(test.quantities, ","))),
+             [&card, &specimen, &test] {
+               virtual_tests::TestOptions options = test.options;
+               virtual_tests::set_threads(options, 1);
+               return summarise(virtual_tests::run_test(specimen, card, options), test);
+             }});
+      }
+  }
+  for (const auto& [wanted, options, list] :
+       {std::tuple(round.compression, &protocol.compression, &result.compression),
+        std::tuple(round.tension, &protocol.tension, &result.tension)})
+    for (std::size_t s = 0; wanted && s < all.size(); ++s) {
+      virtual_tests::UniaxialOptions own = *options;
+      own.threads = 1;  // the bench uses the cores for specimens
+      const specimens::Specimen& specimen = all[s];
+      tasks.push_back({list, key_of(specimen_hashes[s], own, ""), [&card, &specimen, own] {
+                         return summarise(virtual_tests::run_uniaxial(specimen, card, own));
+                       }});
+    }
   test_count += static_cast<long>(tasks.size());
 
   bool fresh = false;
@@ -111,15 +165,12 @@ RoundResult TestBench::run(const dem::MaterialCard& card, Round round) {
         task.summary = *known;
         continue;
       }
-      virtual_tests::UniaxialOptions options = *task.options;
-      options.threads = 1;  // the bench uses the cores for specimens
-      task.summary = summarise(virtual_tests::run_uniaxial(all[task.specimen], card, options));
+      task.summary = task.run();
       fresh = true;
     } catch (...) {
       task.failure = std::current_exception();
     }
   }
-  RoundResult result;
   std::exception_ptr failure;
   for (Task& task : tasks) {
     if (task.failure) {
@@ -127,8 +178,7 @@ RoundResult TestBench::run(const dem::MaterialCard& card, Round round) {
       continue;
     }
     if (journal.find(task.key) == nullptr) journal.add(task.key, task.summary);
-    auto& list = task.options == &protocol.tension ? result.tension : result.compression;
-    list.push_back(std::move(task.summary));
+    task.list->push_back(std::move(task.summary));
   }
   if (fresh) journal.save();
   if (failure) std::rethrow_exception(failure);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/calibration_case.h"
 #include "libdem/core/progress.h"
 #include "libdem/material/material_card.h"
 #include "specimens/specimen.h"
@@ -22,6 +23,7 @@ struct TestSummary {
   bool passed_peak = false;
   std::int64_t steps = 0;
   virtual_tests::Curve curve;
+  std::vector<double> measured;  ///< of another laboratory test: its quantities that are targets
 };
 
 /// Results by the hash of everything that they depend on. Saved after every round of tests, so that a run that
@@ -50,18 +52,26 @@ struct TestProtocol {
 
 struct Round {
   bool tension = false, compression = false;
+  bool laboratory = false;  ///< all other tests
 };
 
 /// Summaries by specimen; empty for a test that was not asked for.
 struct RoundResult {
   std::vector<TestSummary> tension, compression;
+  std::vector<std::vector<TestSummary>> laboratory;  ///< by test
+};
+
+/// Another laboratory test and its specimens, as many as the bench has.
+struct LaboratoryBench {
+  const LaboratoryTest* test;
+  const std::vector<specimens::Specimen>* specimens;
 };
 
 class TestBench {
  public:
   /// Keeps references: specimens and journal must outlive the bench.
   TestBench(const std::vector<specimens::Specimen>& specimens, TestProtocol protocol, TestJournal& journal,
-            int threads);
+            int threads, std::vector<LaboratoryBench> laboratory = {});
 
   /// Runs the tests of `round` with `card` on all specimens. Throws what a test throws, the first specimen's
   /// first; results that were complete are in the journal by then.
@@ -73,11 +83,10 @@ class TestBench {
   const TestProtocol& test_protocol() const { return protocol; }
 
  private:
-  std::string key(std::size_t specimen, const dem::MaterialCard& card,
-                  const virtual_tests::UniaxialOptions& options) const;
-
   const std::vector<specimens::Specimen>& all;
+  std::vector<LaboratoryBench> laboratory;
   std::vector<std::string> specimen_hashes;
+  std::vector<std::vector<std::string>> laboratory_hashes;  ///< by test
   TestProtocol protocol;
   TestJournal& journal;
   int threads;

@@ -19,14 +19,14 @@ std::string key_text(const SpecimenRecipe& recipe) {
 std::string key_of(const SpecimenRecipe& recipe) { return dem::sha256_of(key_text(recipe)); }
 
 std::string task_key(const SpecimenRecipe& recipe, const dem::MaterialCard& card, const VirtualTest& test) {
-  std::string text = fmt::format("spall-study-result {}|{}", result_version, key_text(recipe));
+  const std::string text = fmt::format("spall-study-result {}|{}", result_version, key_text(recipe));
   if (test.kind == TestKind::elastic) {
     const dem::LinkLaw law = dem::make_link_law(card);
     return dem::sha256_of(fmt::format("{}|{}|{:a}|{:a}", text, virtual_tests::text_of(test.options),
                                       law.normal_modulus, law.shear_ratio));
   }
-  text += "|" + dem::identity_text(card);
-  return dem::sha256_of(text + "|" + virtual_tests::text_of(test.options));
+  return dem::sha256_of(
+      fmt::format("{}|{}|{}", text, dem::identity_text(card), virtual_tests::text_of(test.options)));
 }
 
 }  // namespace study
