@@ -47,6 +47,11 @@ dem::MaterialCard card_at(const Study& study, const StudyCard& base, const Desig
   return card;
 }
 
+bool goes_through(const SpecimenRecipe& specimen, const VirtualTest& test) {
+  return test.groups.empty() ||
+         std::find(test.groups.begin(), test.groups.end(), specimen.group) != test.groups.end();
+}
+
 }  // namespace
 
 Plan make_plan(Study study) {
@@ -66,6 +71,7 @@ Plan make_plan(Study study) {
     for (std::size_t card = 0; card < s.cards.size(); ++card)
       for (std::size_t point = 0; point < plan.points.size(); ++point)
         for (std::size_t test = 0; test < s.tests.size(); ++test) {
+          if (!goes_through(s.specimens[specimen], s.tests[test])) continue;
           Task task{plan.tasks.size() + 1, specimen, card, point, test, "", 0, 0};
           const dem::MaterialCard& material = plan.card_of(task);
           task.key = task_key(s.specimens[specimen], material, s.tests[test]);

@@ -61,9 +61,9 @@ Study read_study(const std::filesystem::path& file) {
   if (study.name.empty()) root.fail("name", "is empty", "give the study a name, or leave the key out");
   if (root.has("notes")) study.notes = root.texts("notes");
   read_cards(root, study);
-  read_tests(root, study);
   read_design(root, study);
   read_specimen_groups(root, study);
+  read_tests(root, study);
   root.finish();
   return study;
 }

@@ -15,11 +15,12 @@ namespace study {
 using virtual_tests::name_of;
 using virtual_tests::TestKind;
 
-/// One virtual test that every specimen goes through.
+/// One virtual test that every specimen goes through, or those of some groups.
 struct VirtualTest {
   std::string name;  ///< unique in the study; the kind's own name unless the file gives another
   TestKind kind = TestKind::elastic;
   virtual_tests::TestOptions options;  ///< of that kind
+  std::vector<std::string> groups{};   ///< of specimens that go through it; empty: all of them
 };
 
 /// One specimen: how to pack it, or the file that holds it.

@@ -1,6 +1,9 @@
 // tests = ["elastic", "tension"], or [[test]] with options.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "libdem/config/nearest_name.h"
 #include "specimens/virtual_tests/test_table.h"
 #include "study/study_parts.h"
 
@@ -14,8 +17,19 @@ VirtualTest plain_test(const std::string& name) {
   return {name, found.kind, found.defaults};
 }
 
+/// The groups that a test names are there.
+void require_groups(const TomlTable& table, const VirtualTest& test, const Study& study) {
+  std::vector<std::string> known;
+  for (const SpecimenRecipe& recipe : study.specimens)
+    if (known.empty() || known.back() != recipe.group) known.push_back(recipe.group);
+  for (const std::string& group : test.groups)
+    if (std::find(known.begin(), known.end(), group) == known.end())
+      table.fail("specimens", fmt::format("no [[specimen]] has the name \"{}\"", group),
+                 dem::suggestion(group, known));
+}
+
 VirtualTest read_test(const TomlTable& table) {
-  static const std::vector<std::string> own{"name", "kind"};
+  static const std::vector<std::string> own{"name", "kind", "specimens"};
   std::vector<std::string> known = virtual_tests::all_option_keys();
   known.insert(known.begin(), own.begin(), own.end());
   table.allow_only(known);
@@ -24,6 +38,7 @@ VirtualTest read_test(const TomlTable& table) {
   test.name = table.text("name", kind);
   if (test.name.empty()) table.fail("name", "is empty", "give the test a name, or leave the key out");
   test.options = virtual_tests::read_options(table, *virtual_tests::find_test(kind), own);
+  if (table.has("specimens")) test.groups = one_or_more_texts(table, "specimens");
   return test;
 }
 
@@ -41,7 +56,10 @@ void read_tests(const TomlTable& root, Study& study) {
       study.tests.push_back(plain_test(kind));
     }
   }
-  for (const TomlTable& table : tables) study.tests.push_back(read_test(table));
+  for (const TomlTable& table : tables) {
+    study.tests.push_back(read_test(table));
+    require_groups(table, study.tests.back(), study);
+  }
   if (study.tests.empty())
     root.fail("tests", "the key is missing",
               "write it as in tests = [\"elastic\", \"tension\", \"compression\"]");

@@ -1,11 +1,15 @@
 // The plan of a study: its design, its tasks and what their names depend on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <set>
+#include <string>
 
 #include "libdem/material/micro_macro.h"
 #include "study/estimate.h"
@@ -129,6 +133,36 @@ TEST(StudyPlan, NumbersEveryTestOnEverySpecimenAtEverySetting) {
   for (const study::Task& task : plan.tasks) keys.insert(task.key);
   EXPECT_EQ(keys.size(), 10u);
   EXPECT_EQ(plan.tasks[0].key, plan.tasks[3].key);
+}
+
+TEST(StudyPlan, ATestThatNamesSpecimensGoesThroughThoseOnly) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("spall-groups." + std::to_string(::getpid()) + ".toml");
+  const std::string card = (std::filesystem::path(SPALL_SOURCE_DIR) / "data/cards/table1.toml").string();
+  const auto plan_with = [&](const std::string& specimens) {
+    std::ofstream(file)
+        << "card = \"" << card << "\"\n"
+        << "[[specimen]]\nname = \"prism\"\nsize = \"0.4x0.2x0.2 m\"\nelements = 1400\nseeds = \"1-3\"\n"
+        << "[[specimen]]\nname = \"cube\"\nsize = \"0.25x0.25x0.25 m\"\nelements = 1350\nseeds = \"1-2\"\n"
+        << "[[test]]\nkind = \"elastic\"\n[[test]]\nkind = \"tension\"\nspecimens = " << specimens << "\n";
+    study::Plan plan = study::make_plan(study::read_study(file));
+    std::filesystem::remove(file);
+    return plan;
+  };
+  const study::Plan plan = plan_with("\"cube\"");
+  ASSERT_EQ(plan.tasks.size(), 7u);
+  for (const study::Task& task : plan.tasks)
+    if (task.test == 1) {
+      EXPECT_EQ(plan.study.specimens[task.specimen].group, "cube");
+    }
+  EXPECT_EQ(plan_with("[\"cube\", \"prism\"]").tasks.size(), 10u);
+  try {
+    plan_with("\"kube\"");
+    FAIL() << "accepted";
+  } catch (const dem::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"cube\""), std::string::npos) << error.what();
+  }
+  std::filesystem::remove(file);
 }
 
 TEST(StudyPlan, StiffnessRatioKeepsTheNormalStiffness) {
