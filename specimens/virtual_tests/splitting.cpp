@@ -120,6 +120,9 @@ class SplittingRig final : public Rig {
           x[directions.line] > end_zone && x[directions.line] < tested.size[directions.line] - end_zone)
         members.push_back(number);
     }
+    if (strip_width > 0.5 * height)
+      throw dem::InputError("strip_width", fmt::format("is {:.4g} mm wide", 1e3 * strip_width),
+                            fmt::format("allowed: up to half the height, {:.4g} mm", 500 * height));
     constexpr std::size_t least = 4;
     if (std::min(low.size(), high.size()) < least)
       throw dem::InputError("strip_width",
