@@ -193,8 +193,7 @@ void add_option(CLI::App& verb, const TestOption& option, TestCommand& command) 
       return;
     case TestOption::Kind::choice:
       verb.add_option(name, command.words[option.key],
-                      fmt::format("{}: {} (default: {})", option.help, fmt::join(option.choices, ", "),
-                                  option.fallback))
+                      fmt::format("{} (default: {})", option.help, option.fallback))
           ->check(CLI::IsMember(option.choices));
   }
 }

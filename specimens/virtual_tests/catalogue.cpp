@@ -56,6 +56,7 @@ std::string_view name_of(TestKind kind) { return description_of(kind).name; }
 std::string text_of(const TestOptions& options) {
   const TestDescription& test = description_of(options);
   std::string text = test.name;
+  if (test.version > 1) text += fmt::format(" {}", test.version);
   for (const TestOption& option : test.options) {
     const Value value = option.get(options);
     text += fmt::format("|{}=", option.key);

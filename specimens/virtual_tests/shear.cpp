@@ -163,6 +163,7 @@ TestDescription shear_description() {
                    {"last_shear_stress", "Pa", "shear stress at the end"},
                    {"dilation_at_end", "m", "dilation at the end"}};
   test.example_specimen = "--size \"0.1x0.1x0.1 m\" --elements 1400 --seed 1";
+  test.version = 2;  // 1 began with motions of the body as a whole
   test.usual_rate = usual_rate;
   test.usual_end = 2.5;
   return test;

@@ -102,7 +102,7 @@ TEST_F(VirtualTest, LaboratoryTestsLeaveTheirKeysCurvesAndFields) {
                                "displacement[m],force[N],stress[Pa],dilation[m],normal_stress[Pa]"}}) {
     SCOPED_TRACE(one.kind);
     std::vector<std::string> more = one.options;
-    more.insert(more.end(), {"--rate", "0.05"});
+    more.insert(more.end(), {"--rate", "0.05", "--threads", "1"});
     const auto run = spall(test(one.kind, more));
     ASSERT_EQ(run.code, 0) << run.err;
     const auto result = json("out/result.json");
@@ -120,7 +120,8 @@ TEST_F(VirtualTest, LaboratoryTestsLeaveTheirKeysCurvesAndFields) {
 
 TEST_F(VirtualTest, ARateCheckSaysWhatHalfTheSpeedDoes) {
   make_specimen();
-  const auto run = spall(test("tension", {"--rate", "0.1", "--stop-at", "0.9", "--rate-check"}));
+  const auto run =
+      spall(test("tension", {"--rate", "0.1", "--stop-at", "0.9", "--threads", "1", "--rate-check"}));
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("at half the speed peak stress is"));
   const auto result = json("out/result.json");

@@ -72,7 +72,7 @@ void expect_rate_does_not_matter(const specimens::Specimen& specimen, const Opti
   EXPECT_LT(std::abs(check->change), 0.03);
 }
 
-/// Stopped in a window, before the peak, past it and at the last step but one, on one thread or two.
+/// Stopped in a window, early, past the peak and at the last step but one; some way on two threads.
 template <class Options>
 void expect_resumes(const specimens::Specimen& specimen, Options options) {
   const TestOutcome& whole = usual(specimen, options);
@@ -80,12 +80,16 @@ void expect_resumes(const specimens::Specimen& specimen, Options options) {
   std::filesystem::create_directories(folder);
   const virtual_tests::CheckpointPolicy kept{.file = folder / "checkpoint.h5", .resume = true};
   const long steps = whole.run->steps;
-  for (const long stop : {7L, steps / 3, steps - steps / 8, steps - 1}) {
+  const long late = steps - steps / 8;
+  int part = 0;
+  for (const long stop : {7L, 150L, late, late + 100, steps - 1}) {
     virtual_tests::CheckpointPolicy policy = kept;
     policy.stop_after = stop;
-    options.run.threads = stop % 2 == 0 ? 2 : 1;
+    options.run.threads = 1 + part++ % 2;
+    if (stop == late) options.run.threads = 1;
     EXPECT_THROW(virtual_tests::run_test(specimen, {}, options, {}, policy), dem::Interrupted) << stop;
   }
+  options.run.threads = 1;
   const TestOutcome parts = virtual_tests::run_test(specimen, {}, options, {}, kept);
   std::filesystem::remove_all(folder);
   EXPECT_EQ(parts.run->state_sha256, whole.run->state_sha256);

@@ -14,35 +14,46 @@ using virtual_tests::TestOutcome;
 
 namespace {
 
+specimens::Specimen disc_of(std::uint64_t seed) {
+  specimens::PackingOptions packing;
+  packing.shape = specimens::Shape::cylinder;
+  packing.size = dem::Vec3(0.15, 0.15, 0.15);
+  packing.elements = 2700;
+  packing.threads = 1;
+  packing.seed = seed;
+  return specimens::make_specimen(packing);
+}
+
 const specimens::Specimen& disc() {
-  static const specimens::Specimen made = [] {
-    specimens::PackingOptions packing;
-    packing.shape = specimens::Shape::cylinder;
-    packing.size = dem::Vec3(0.15, 0.15, 0.15);
-    packing.elements = 2700;
-    packing.threads = 1;
-    return specimens::make_specimen(packing);
-  }();
+  static const specimens::Specimen made = disc_of(1);
   return made;
 }
 
 }  // namespace
 
-TEST(Splitting, OfAnElasticDiscStretchesAndShortensItsMiddleAsTheClosedForm) {
-  SplittingOptions options;
-  const TestOutcome elastic = rig_checks::elastic_part(disc(), options);
-  const auto moduli = virtual_tests::run_elastic(disc(), rig_checks::unbreakable());
-  const double e = moduli.young_modulus, nu = moduli.poisson_ratio;
-  // In the middle of a disc 2 P / (pi D L) pulls sideways, three times as much presses along the load.
-  const std::size_t last = elastic.curve.rows() - 1;
-  const double stress = elastic.curve.column("stress")[last];
-  const double sideways = elastic.curve.column("strain_side")[last] * e / stress;
-  const double along = elastic.curve.column("strain_load")[last] * e / stress;
-  RecordProperty("sideways", std::to_string(sideways / (1 + 3 * nu)));
-  RecordProperty("along", std::to_string(along / -(3 + nu)));
-  // A gauge of a fifth of the diameter, in a disc of 14 elements across.
-  EXPECT_NEAR(sideways, 1 + 3 * nu, 0.1 * (1 + 3 * nu));
-  EXPECT_NEAR(along, -(3 + nu), 0.1 * (3 + nu));
+TEST(Splitting, OfElasticDiscsStretchesAndShortensTheMiddleAsTheClosedForm) {
+  // In the middle of a disc 2 P / (pi D L) pulls sideways, three times as much presses along the load. The
+  // gauge is as large as a laboratory's, a fifth of the diameter, and holds some hundred elements: single
+  // specimens scatter by a fifth.
+  double sideways = 0, along = 0;
+  constexpr int count = 6;
+  for (int seed = 1; seed <= count; ++seed) {
+    const specimens::Specimen specimen = disc_of(static_cast<std::uint64_t>(seed));
+    SplittingOptions options;
+    options.run.expected_strength = 3e6;
+    options.run.max_control = 1e-9;
+    const TestOutcome elastic = virtual_tests::run_test(specimen, rig_checks::unbreakable(), options);
+    const auto moduli = virtual_tests::run_elastic(specimen, rig_checks::unbreakable());
+    const double e = moduli.young_modulus, nu = moduli.poisson_ratio;
+    const std::size_t last = elastic.curve.rows() - 1;
+    const double stress = elastic.curve.column("stress")[last];
+    sideways += elastic.curve.column("strain_side")[last] * e / stress / (1 + 3 * nu) / count;
+    along -= elastic.curve.column("strain_load")[last] * e / stress / (3 + nu) / count;
+  }
+  RecordProperty("sideways", std::to_string(sideways));
+  RecordProperty("along", std::to_string(along));
+  EXPECT_NEAR(sideways, 1, 0.1);
+  EXPECT_NEAR(along, 1, 0.1);
 }
 
 TEST(Splitting, ClosesItsLedgerAndIsQuasiStatic) {
