@@ -86,6 +86,8 @@ report::Chart damage_chart(const std::vector<Column>& columns) {
 
 /// Whether it was balanced and ran to its end.
 std::string how_it_went(const Json& result) {
+  if (!result.contains("quasi_static"))  // a dynamic test
+    return result.value("passed_peak", true) ? "" : "The bar did not break.";
   if (!result.value("passed_peak", true)) return "The test ended at its limit before the peak was passed.";
   if (!result.value("quasi_static", true))
     return fmt::format("Not quasi-static: the forces that balance differ by {}; load it slower.",
@@ -106,7 +108,7 @@ void add_charts(report::Section& drawn, const std::vector<Column>& columns) {
 report::Page test_page(const Json& result, const std::filesystem::path& curves) {
   report::Page page;
   const virtual_tests::TestDescription* test = virtual_tests::find_test(text(result, "test"));
-  const bool uniaxial = result.contains("peak_stress");
+  const bool uniaxial = result.contains("peak_stress") && result.contains("peak_strain");
   if (!uniaxial && result.contains("passed_peak") && test != nullptr) {
     const std::string& main = test->measured.front().key;
     const bool good = result.value("passed_peak", true) && result.value("quasi_static", true);
@@ -134,9 +136,11 @@ report::Page test_page(const Json& result, const std::filesystem::path& curves) 
   show("broken_links"), show("damage");
   page.sections.push_back({"Results", {std::move(measured)}});
   const std::vector<Column> columns = read_columns(curves);
+  const bool compressed = text(result, "test") == "compression" || text(result, "test") == "triaxial" ||
+                          text(result, "loading") == "compression";
   report::Section drawn{"Curves", {}};
   if (column(columns, "strain") != nullptr && column(columns, "stress") != nullptr) {
-    drawn.blocks.emplace_back(stress_chart(columns, text(result, "test") == "compression"));
+    drawn.blocks.emplace_back(stress_chart(columns, compressed));
   } else if (!columns.empty()) {
     add_charts(drawn, columns);
   }

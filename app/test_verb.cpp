@@ -129,7 +129,9 @@ void say_what_came_out(const TestDescription& test, const virtual_tests::TestOut
     line += fmt::format("{}{} {}", line.empty() ? "" : ", ", label_of(key).words, value_words(key, value));
   console.say(fmt::format("{}; {} of {} links broken, {} steps in {}", line, found.run->broken_links,
                           found.run->links, found.run->steps, duration(found.wall_seconds)));
-  if (!found.run->passed_peak)
+  if (!found.run->passed_peak && test.dynamic)
+    console.remark("the bar did not break; raise --pulse-stress, or strike it for longer");
+  else if (!found.run->passed_peak)
     console.remark(fmt::format(
         "the largest {} came before the end of the post-peak; raise it to see more",
         test.name == "tension" || test.name == "compression" ? "strain (--max-strain)" : "displacement"));
@@ -207,7 +209,7 @@ void add_one(CLI::App& parent, const TestDescription& test, Invocation& invocati
   CLI::App* verb = add_verb(parent, test.name, test.summary, example, command->common);
   verb->add_option("--specimen", command->specimen, "Specimen (HDF5)")->required();
   verb->add_option("--card", command->card, "Material card (TOML)")->required();
-  const bool steps = test.usual_rate > 0;
+  const bool steps = test.usual_rate > 0 || test.dynamic;
   verb->add_option("-o,--output", command->output,
                    steps ? "Folder for result.json, run.json, curves.csv, report.html, fields.h5, links.h5"
                          : "Folder for result.json, run.json, report.html")
@@ -220,8 +222,9 @@ void add_one(CLI::App& parent, const TestDescription& test, Invocation& invocati
   if (has("velocity") && has("rate")) verb->get_option("--velocity")->excludes("--rate");
   if (steps) {
     verb->add_flag("--resume", command->resume, "Go on from the checkpoint in the output folder");
-    verb->add_flag("--rate-check", command->rate_check,
-                   "Run once more at half the speed and say what the main quantity does");
+    if (!test.dynamic)
+      verb->add_flag("--rate-check", command->rate_check,
+                     "Run once more at half the speed and say what the main quantity does");
   }
   verb->callback([command, &test, &invocation] {
     invocation.action = [command, &test, &invocation] { return run_test(test, *command, invocation); };

@@ -48,6 +48,11 @@ Estimate estimate_test(const specimens::PackingOptions& packing, const dem::Mate
             return 0;
         },
         test.options);
+    // A wave runs through a bar usual_end times.
+    if (description.dynamic)
+      return {seconds_per_element_step * elements * description.usual_end * longest /
+                  (0.7 * critical_share * element_size),
+              memory(packing)};
     const double rate = asked > 0 ? asked : description.usual_rate;
     const double steps = description.usual_end * longest / (rate * 0.7 * critical_share * element_size);
     return {seconds_per_element_step * elements * steps, memory(packing)};

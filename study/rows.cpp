@@ -69,7 +69,7 @@ std::vector<Quantity> quantities_of(const Study& study) {
     const virtual_tests::TestDescription& description = virtual_tests::description_of(test.kind);
     for (const virtual_tests::MeasuredQuantity& measured : description.measured)
       add(measured.key.c_str(), short_name(measured.key));
-    if (description.usual_rate > 0) add("damage", "");
+    if (description.usual_rate > 0 || description.dynamic) add("damage", "");
   }
   return list;
 }

@@ -18,6 +18,10 @@ TestKind kind_of(const TestOptions& options) {
     TestKind operator()(const SplittingOptions&) const { return TestKind::splitting; }
     TestKind operator()(const BendingOptions&) const { return TestKind::bending; }
     TestKind operator()(const ShearOptions&) const { return TestKind::shear; }
+    TestKind operator()(const TriaxialOptions&) const { return TestKind::triaxial; }
+    TestKind operator()(const BiaxialOptions&) const { return TestKind::biaxial; }
+    TestKind operator()(const CyclicOptions&) const { return TestKind::cyclic; }
+    TestKind operator()(const SpallingOptions&) const { return TestKind::spalling; }
   };
   return std::visit(Kind{}, options);
 }
@@ -28,7 +32,11 @@ const std::vector<TestDescription>& catalogue() {
                                                   uniaxial_description(Loading::compression),
                                                   splitting_description(),
                                                   bending_description(),
-                                                  shear_description()};
+                                                  shear_description(),
+                                                  triaxial_description(),
+                                                  biaxial_description(),
+                                                  cyclic_description(),
+                                                  spalling_description()};
   return tests;
 }
 
@@ -101,7 +109,7 @@ TestOutcome run_test(const specimens::Specimen& specimen, const dem::MaterialCar
 std::optional<RateCheck> check_rate(const specimens::Specimen& specimen, const dem::MaterialCard& card,
                                     const TestOptions& options, const TestOutcome& outcome,
                                     const dem::ProgressCallback& progress) {
-  if (!outcome.run) return {};
+  if (!outcome.run || description_of(options).usual_rate == 0) return {};
   RateCheck check;
   check.velocity = 0.5 * outcome.run->velocity;
   TestOptions slower = options;

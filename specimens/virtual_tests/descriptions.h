@@ -9,5 +9,9 @@ TestDescription uniaxial_description(Loading loading);
 TestDescription splitting_description();
 TestDescription bending_description();
 TestDescription shear_description();
+TestDescription triaxial_description();
+TestDescription biaxial_description();
+TestDescription cyclic_description();
+TestDescription spalling_description();
 
 }  // namespace virtual_tests

@@ -27,6 +27,7 @@ struct StepsTaken {
   double energy_balance_error = 0;  ///< largest imbalance over the work from outside
   /// Largest difference of the main force and the one opposing it over their mean, half peak to peak.
   double unbalanced_force_ratio = 0;
+  bool dynamic = false;      ///< waves are the test's matter: nothing has to balance
   bool passed_peak = false;  ///< false: the limit of the displacement came first
   std::size_t links = 0, broken_links = 0;
   double step_loop_seconds = 0;

@@ -50,7 +50,8 @@ struct TestDescription {
   std::string example_specimen;            ///< arguments of `spall specimen make` for the example in --help
   /// Raise it whenever the same options give other numbers: what is kept of before is then not taken for now.
   int version = 1;
-  double usual_rate = 0;  ///< QuasiStaticOptions::rate where nothing is given; 0: no time steps
+  double usual_rate = 0;  ///< QuasiStaticOptions::rate where nothing is given; 0: there is none
+  bool dynamic = false;   ///< waves are its matter: it has time steps, but no rate
   double usual_end = 2;   ///< in displacements of the elastic peak, for estimates
 
   /// Throws InputError where the test cannot be done on the specimen; computes little.

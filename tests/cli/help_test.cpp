@@ -30,9 +30,10 @@ TEST_P(Help, HasAnExampleThatWorksWhenPasted) {
 INSTANTIATE_TEST_SUITE_P(Verbs, Help,
                          testing::Values("specimen make", "specimen extract", "specimen inspect",
                                          "test elastic", "test tension", "test compression", "test splitting",
-                                         "test bending", "test shear", "card show", "card check", "card export",
-                                         "card example", "report", "calibrate", "impact", "study", "study plan",
-                                         "study run", "study status", "study report"),
+                                         "test bending", "test shear", "test triaxial", "test biaxial",
+                                         "test cyclic", "test spalling", "card show", "card check",
+                                         "card export", "card example", "report", "calibrate", "impact",
+                                         "study", "study plan", "study run", "study status", "study report"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace(name.begin(), name.end(), ' ', '_');

@@ -76,8 +76,10 @@ TEST_F(VirtualTest, TensionLeavesItsKeysAndCurves) {
 TEST_F(VirtualTest, ListNamesEachTestWithALine) {
   const auto list = spall({"test", "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
-  for (const char* line : {"elastic      Young", "tension      Uniaxial", "compression  Uniaxial",
-                           "splitting    Brazilian", "bending      Three-point", "shear        Direct"})
+  for (const char* line :
+       {"elastic      Young", "tension      Uniaxial", "compression  Uniaxial", "splitting    Brazilian",
+        "bending      Three-point", "shear        Direct", "triaxial     Triaxial", "biaxial      Biaxial",
+        "cyclic       Uniaxial", "spalling     Spalling"})
     EXPECT_THAT(list.out, HasSubstr(line));
 }
 
@@ -88,18 +90,31 @@ TEST_F(VirtualTest, LaboratoryTestsLeaveTheirKeysCurvesAndFields) {
     std::vector<std::string> options, keys;
     std::string header;
   };
-  for (const Case& one : {Case{"splitting",
-                               {"--strip-width", "40 mm"},
-                               {"splitting_strength", "largest_force"},
-                               "closing[m],force[N]"},
-                          Case{"bending",
-                               {"--notch", "60 mm", "--stop-at", "0.8"},
-                               {"bending_strength", "fracture_energy", "span"},
-                               "displacement[m],force[N],stress[Pa],deflection[m],crack_mouth_opening[m]"},
-                          Case{"shear",
-                               {"--normal-stress", "1 MPa"},
-                               {"shear_strength", "normal_stress"},
-                               "displacement[m],force[N],stress[Pa],dilation[m],normal_stress[Pa]"}}) {
+  for (const Case& one :
+       {Case{"splitting",
+             {"--strip-width", "40 mm"},
+             {"splitting_strength", "largest_force"},
+             "closing[m],force[N]"},
+        Case{"bending",
+             {"--notch", "60 mm", "--stop-at", "0.8"},
+             {"bending_strength", "fracture_energy", "span"},
+             "displacement[m],force[N],stress[Pa],deflection[m],crack_mouth_opening[m]"},
+        Case{"shear",
+             {"--normal-stress", "1 MPa"},
+             {"shear_strength", "normal_stress"},
+             "displacement[m],force[N],stress[Pa],dilation[m],normal_stress[Pa]"},
+        Case{"triaxial",
+             {"--confinement", "2 MPa", "--max-displacement", "0.4 mm", "--uniaxial-strength", "15 MPa"},
+             {"peak_stress", "peak_deviator", "confinement_factor", "confinement"},
+             "closing[m],force[N],stress[Pa],strain[-],pressure[Pa]"},
+        Case{"biaxial",
+             {"--ratio", "0.5", "--free-axis", "y", "--max-displacement", "0.2 mm"},
+             {"peak_stress", "second_stress_at_peak", "biaxial_modulus", "ratio"},
+             "closing[m],force[N],stress[Pa],stress_2[Pa]"},
+        Case{"cyclic",
+             {"--loading", "tension", "--increment", "0.05 permil", "--max-displacement", "0.05 mm"},
+             {"peak_stress", "cycles", "residual_strain", "loading"},
+             "opening[m],force[N],stress[Pa],strain[-],cycle[-]"}}) {
     SCOPED_TRACE(one.kind);
     std::vector<std::string> more = one.options;
     more.insert(more.end(), {"--rate", "0.05", "--threads", "1"});
@@ -116,6 +131,25 @@ TEST_F(VirtualTest, LaboratoryTestsLeaveTheirKeysCurvesAndFields) {
     EXPECT_THAT(files(), IsSupersetOf({"out/fields.h5", "out/links.h5", "out/report.html"}));
     EXPECT_THAT(read("out/report.html"), HasSubstr("force"));
   }
+}
+
+TEST_F(VirtualTest, ASpallingBarLeavesItsKeysAndRefusesWhatDoesNotSuitIt) {
+  const auto made =
+      spall({"specimen", "make", "--size", "0.5x0.1x0.1 m", "--elements", "3200", "-o", "s1.h5", "--quiet"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto run = spall(test("spalling", {"--static-strength", "2.5 MPa", "--pulse", "trapezoid"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto result = json("out/result.json");
+  expect_keys(result, {"spall_strength", "fracture_stress", "strain_rate", "dynamic_increase_factor", "pulse",
+                       "pulse_duration", "wave_speed", "energy_balance_error", "state_sha256"});
+  EXPECT_FALSE(result.contains("quasi_static")) << "nothing has to balance";
+  EXPECT_GT(result["spall_strength"].get<double>(), 1e6);
+  EXPECT_THAT(read("out/curves.csv"), testing::StartsWith("time[s],free_end_velocity[m/s]"));
+  EXPECT_THAT(files(), IsSupersetOf({"out/fields.h5", "out/links.h5", "out/report.html"}));
+  EXPECT_THAT(refusal(2, test("spalling", {"--pulse-duration", "1 s"})),
+              AllOf(HasSubstr("pulse-duration"), HasSubstr("allowed")));
+  EXPECT_THAT(refusal(2, test("spalling", {"--pulse", "square"})), HasSubstr("--pulse"));
+  EXPECT_THAT(refusal(2, test("spalling", {"--axis", "y"})), HasSubstr("long"));
 }
 
 TEST_F(VirtualTest, ARateCheckSaysWhatHalfTheSpeedDoes) {
@@ -143,11 +177,15 @@ TEST_F(VirtualTest, LaboratoryTestsRefuseWhatTheyCannotDo) {
   EXPECT_THAT(refusal(2, test("bending", {"--velocity", "1 mm/s", "--rate", "0.1"})), HasSubstr("--rate"));
   EXPECT_THAT(refusal(2, test("shear", {"--gap", "0.5 m"})), AllOf(HasSubstr("gap"), HasSubstr("allowed")));
   EXPECT_THAT(refusal(2, test("shear", {"--normal-stress", "-1 MPa"})), HasSubstr("not positive"));
+  EXPECT_THAT(refusal(2, test("triaxial", {"--confinement", "0 MPa"})), HasSubstr("not positive"));
+  EXPECT_THAT(refusal(2, test("biaxial", {"--ratio", "1.5"})), HasSubstr("--ratio"));
+  EXPECT_THAT(refusal(2, test("cyclic", {"--unload-to", "1"})), HasSubstr("--unload-to"));
   EXPECT_THAT(refusal(2, {"test", "spliting"}), HasSubstr("did you mean \"splitting\"?"));
   const auto made = spall({"specimen", "make", "--shape", "cylinder", "--size", "0.1x0.2 m", "--elements",
                            "1400", "-o", "s1.h5", "--quiet"});
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(refusal(2, test("bending")), HasSubstr("cylinder"));
+  EXPECT_THAT(refusal(2, test("biaxial")), HasSubstr("cylinder"));
   EXPECT_THAT(refusal(2, test("splitting", {"--axis", "z"})), HasSubstr("axis"));
 }
 
