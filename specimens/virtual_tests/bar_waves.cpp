@@ -1,7 +1,5 @@
 #include "specimens/virtual_tests/bar_waves.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,11 +13,7 @@ std::size_t BarSlices::at(double part_of_length) const {
 }
 
 BarSlices cut_bar(const dem::Particles& particles, int axis, double length, double section, double thickness) {
-  constexpr std::size_t least = 20;
   const auto count = static_cast<std::size_t>(length / thickness);
-  if (count < least)
-    throw dem::InputError("specimen", fmt::format("is only {} elements long", count),
-                          fmt::format("a spalling bar has at least {} along its axis", least));
   BarSlices slices{axis, length, section, {}, std::vector<double>(count, 0), std::vector<double>(count, 0)};
   for (std::size_t i = 0; i < particles.count; ++i) {
     const double x = particles.initial_position[i][axis];

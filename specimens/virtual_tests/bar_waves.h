@@ -21,7 +21,7 @@ struct BarSlices {
   std::size_t at(double part_of_length) const;
 };
 
-/// Slices about `thickness` thick. Throws InputError if there are fewer than 20, or one is empty.
+/// Slices about `thickness` thick. Throws InputError if one is empty.
 BarSlices cut_bar(const dem::Particles& particles, int axis, double length, double section, double thickness);
 
 /// Mean displacement and velocity along the axis of every slice, over time.

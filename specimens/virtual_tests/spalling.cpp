@@ -46,6 +46,10 @@ Plan make_plan(const specimens::Specimen& specimen, const dem::MaterialCard& car
   Plan plan;
   plan.axis = loading_axis(specimen, options.axis);
   const double length = specimen.size[plan.axis];
+  constexpr int least = 20;
+  if (const int count = static_cast<int>(length / specimen.element_size()); count < least)
+    throw dem::InputError("specimen", fmt::format("is only {} elements long", count),
+                          fmt::format("a spalling bar has at least {} along its axis", least));
   plan.nominal_speed = std::sqrt(card.young_modulus / card.density);
   plan.transit = length / plan.nominal_speed;
   plan.pulse = options.pulse;

@@ -118,6 +118,19 @@ TEST(Triaxial, ElasticallyShowsTheSpecimensModuli) {
   }
 }
 
+TEST(Triaxial, WithHardlyAnyPressureIsTheUniaxialTest) {
+  const dem::MaterialCard card;
+  virtual_tests::UniaxialOptions uniaxial;
+  uniaxial.loading = virtual_tests::Loading::compression;
+  uniaxial.stop_at = 0.9;
+  const double strength = virtual_tests::run_uniaxial(prism(), card, uniaxial).peak_stress;
+  virtual_tests::TriaxialOptions options;
+  options.confinement = 1e3;
+  options.run.stop_at = 0.9;
+  const TestOutcome found = run(virtual_tests::make_triaxial_rig, prism(), card, options);
+  EXPECT_NEAR(found.value("peak_stress"), strength, 0.02 * strength);
+}
+
 TEST(Triaxial, IsStrongerUnderMorePressure) {
   const dem::MaterialCard card;
   double last = 0;
