@@ -18,8 +18,8 @@ MaterialCard for_element_size(const MaterialCard& card, double from, double to) 
                      fmt::format("from {:.4g} m to {:.4g} m is a factor of {:.3g}", from, to, ratio),
                      "the rule was measured over a factor of 3: at most 10 is allowed");
   MaterialCard made = card;
-  made.softening = card.softening * std::pow(ratio, -0.45);
-  made.tensile_strength = card.tensile_strength * std::pow(ratio, 0.19);
+  made.softening = card.softening * std::pow(ratio, -0.25);
+  made.tensile_strength = card.tensile_strength * std::pow(ratio, 0.14);
   made.provenance.emplace_back(
       "element_size",
       fmt::format("T and zeta brought from elements of {:.4g} mm to {:.4g} mm", 1e3 * from, 1e3 * to));

@@ -214,8 +214,8 @@ TEST(MaterialCard, IsWrittenInUnitsThatPeopleUse) {
 TEST(ElementSizeRule, KeepsAllButTensileStrengthAndSofteningAndUndoesItself) {
   const dem::MaterialCard card;
   const dem::MaterialCard finer = dem::for_element_size(card, 0.018, 0.006);
-  EXPECT_NEAR(finer.softening, card.softening * std::pow(3, 0.45), 1e-12);
-  EXPECT_NEAR(finer.tensile_strength, card.tensile_strength * std::pow(3, -0.19), 1e-6);
+  EXPECT_NEAR(finer.softening, card.softening * std::pow(3, 0.25), 1e-12);
+  EXPECT_NEAR(finer.tensile_strength, card.tensile_strength * std::pow(3, -0.14), 1e-6);
   EXPECT_EQ(finer.cohesion, card.cohesion);
   EXPECT_EQ(finer.young_modulus, card.young_modulus);
   EXPECT_NEAR(dem::for_element_size(finer, 0.006, 0.018).softening, card.softening, 1e-12);
