@@ -60,7 +60,9 @@ TEST(Bending, ANotchCarriesNothingAndTheCrackGrowsFromIt) {
   for (const specimens::Link& link : cut.links) {
     const dem::Vec3 &a = cut.centres[static_cast<std::size_t>(link.a)],
                     &b = cut.centres[static_cast<std::size_t>(link.b)];
-    if ((a.x() - 0.2) * (b.x() - 0.2) < 0) EXPECT_GT(std::max(a.z(), b.z()), 0.03);
+    if ((a.x() - 0.2) * (b.x() - 0.2) < 0) {
+      EXPECT_GT(std::max(a.z(), b.z()), 0.03);
+    }
   }
   const TestOutcome& found = rig_checks::usual(beam(), notched());
   rig_checks::expect_sound(found);
