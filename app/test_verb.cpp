@@ -204,8 +204,8 @@ void add_one(CLI::App& parent, const TestDescription& test, Invocation& invocati
   const auto command = std::make_shared<TestCommand>();
   const std::string example = fmt::format(
       "spall card example -o card.toml\nspall specimen make {} -o s1.h5\n"
-      "spall test {} --specimen s1.h5 --card card.toml -o out/{}",
-      test.example_specimen, test.name, test.name);
+      "spall test {} --specimen s1.h5 --card card.toml{} -o out/{}",
+      test.example_specimen, test.name, test.example_options, test.name);
   CLI::App* verb = add_verb(parent, test.name, test.summary, example, command->common);
   verb->add_option("--specimen", command->specimen, "Specimen (HDF5)")->required();
   verb->add_option("--card", command->card, "Material card (TOML)")->required();

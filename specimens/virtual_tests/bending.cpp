@@ -218,6 +218,7 @@ TestDescription bending_description() {
                    {"fracture_energy", "J/m2", "work of fracture per ligament"},
                    {"stiffness", "N/m", "force over deflection, elastic"}};
   test.example_specimen = "--size \"0.4x0.1x0.1 m\" --elements 2100 --seed 1";
+  test.example_options = " --notch \"30 mm\" --rate 0.05 --stop-at 0.5";
   test.version = 2;  // 1 began with motions of the body as a whole
   test.usual_rate = usual_rate;
   test.usual_end = 7;

@@ -204,6 +204,7 @@ TestDescription biaxial_description() {
                    {"biaxial_modulus", "Pa", "first stress over first strain"},
                    {"strength_ratio", "-", "strength over the uniaxial one"}};
   test.example_specimen = "--size \"0.2x0.2x0.1 m\" --elements 2200 --seed 1";
+  test.example_options = " --rate 0.05 --stop-at 0.9";
   test.usual_rate = usual_rate;
   return test;
 }

@@ -48,6 +48,7 @@ struct TestDescription {
   std::vector<TestOption> options;
   std::vector<MeasuredQuantity> measured;  ///< the main one first
   std::string example_specimen;            ///< arguments of `spall specimen make` for the example in --help
+  std::string example_options{};           ///< options of the test in that example: "", or " --rate 0.05"
   /// Raise it whenever the same options give other numbers: what is kept of before is then not taken for now.
   int version = 1;
   double usual_rate = 0;  ///< QuasiStaticOptions::rate where nothing is given; 0: there is none

@@ -202,6 +202,7 @@ TestDescription triaxial_description() {
                    {"strength_ratio", "-", "strength over the uniaxial one"},
                    {"confinement_factor", "-", "strength gained over the pressure"}};
   test.example_specimen = "--shape cylinder --size \"0.15x0.3 m\" --elements 2000 --seed 1";
+  test.example_options = " --confinement \"1.5 MPa\" --rate 0.05 --stop-at 0.9";
   test.usual_rate = usual_rate;
   test.usual_end = 3;
   return test;
