@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "report/scene.h"
+
 namespace report {
 
 /// Plain text; a blank line begins a new paragraph.
