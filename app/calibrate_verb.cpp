@@ -6,9 +6,11 @@
 #include "app/output.h"
 #include "app/report_page.h"
 #include "app/verbs.h"
+#include "calibrate/film.h"
 #include "calibrate/pipeline.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "specimens/virtual_tests/fields.h"
 
 namespace app {
 namespace {
@@ -17,6 +19,7 @@ struct CalibrateOptions {
   CommonOptions common;
   std::string file, output;
   bool resume = false;
+  int pictures = 8;
 };
 
 void tell(Console& console, const calibrate::CalibrationResult& found) {
@@ -35,10 +38,24 @@ void tell(Console& console, const calibrate::CalibrationResult& found) {
   for (const std::string& warning : found.warnings) console.remark("warning: " + warning);
 }
 
+/// What the report shows in space.
+void write_pictures(const CalibrateOptions& options, const calibrate::CalibrationCase& wanted,
+                    const dem::MaterialCard& card, const RunFolder& folder, Console& console) {
+  if (options.pictures == 0) return;
+  const calibrate::FilmedTests filmed =
+      calibrate::film_tests(wanted, card, options.pictures, options.common.thread_count(), console.progress());
+  for (const auto& [name, test] :
+       {std::pair("tension", &filmed.tension), std::pair("compression", &filmed.compression)})
+    virtual_tests::write_frames(folder.file("frames") / name, filmed.specimen, test->fields.film, test->curve);
+}
+
 calibrate::CalibrationResult run(const CalibrateOptions& options, const calibrate::CalibrationCase& wanted,
-                                 calibrate::TestJournal& journal, Console& console) {
+                                 calibrate::TestJournal& journal, const RunFolder& folder, Console& console) {
   try {
-    return calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
+    calibrate::CalibrationResult found =
+        calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
+    write_pictures(options, wanted, found.card, folder, console);
+    return found;
   } catch (const dem::Interrupted& stop) {
     journal.save();
     throw dem::Interrupted(fmt::format(
@@ -59,7 +76,7 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
                                folder.file("checkpoint.h5").string()));
 
-  const calibrate::CalibrationResult found = run(options, wanted, journal, console);
+  const calibrate::CalibrationResult found = run(options, wanted, journal, folder, console);
   const nlohmann::ordered_json result = result_of(wanted, found);
   dem::write_file_atomically(folder.file("card.toml"), dem::to_toml(found.card));
   dem::write_file_atomically(folder.file("curves.csv"), curves_csv(wanted, found));
@@ -100,9 +117,14 @@ void add_calibrate(CLI::App& root, Invocation& invocation) {
                             options->common);
   verb->add_option("case", options->file, "Case (TOML): targets, curves, specimens")->required();
   verb->add_option("-o,--output", options->output,
-                   "Folder for card.toml, result.json, run.json, curves.csv, report.html")
+                   "Folder for card.toml, result.json, run.json, curves.csv, report.html, frames/")
       ->required();
   verb->add_flag("--resume", options->resume, "Go on from the checkpoint in the output folder");
+  verb->add_option(
+          "--frames", options->pictures,
+          "Pictures of the first specimen's tests with the finished card, this many to twice as many; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   verb->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return calibrate_case(*options, invocation); };
   });

@@ -8,6 +8,7 @@
 
 #include "app/calibration_charts.h"
 #include "app/curve_table.h"
+#include "app/scene_of_frames.h"
 #include "report/html.h"
 
 namespace app {
@@ -318,7 +319,7 @@ std::optional<report::Section> remarks(const char* title, const Json& list) {
 
 }  // namespace
 
-report::Page calibration_page(const Json& result, const std::filesystem::path& curves_file) {
+report::Page calibration_page(const Json& result, const std::filesystem::path& folder) {
   report::Page page;
   page.title = "Calibration: " + text(result, "name");
   page.subtitle = text(result, "concrete");
@@ -333,7 +334,7 @@ report::Page calibration_page(const Json& result, const std::filesystem::path& c
               "single specimen and the wider of the check's and the target's tolerance."}}});
   if (auto warnings = remarks("Warnings", list_of(result, "warnings"))) page.sections.push_back(*warnings);
 
-  const std::vector<TestCurve> curves = read_test_curves(curves_file);
+  const std::vector<TestCurve> curves = read_test_curves(folder / "curves.csv");
   report::Section drawn{"Virtual and laboratory tests", {}};
   for (const char* test : {"compression", "tension"})
     if (report::Chart chart = test_chart(result, curves, test); !chart.series.empty())
@@ -341,6 +342,13 @@ report::Page calibration_page(const Json& result, const std::filesystem::path& c
   drawn.blocks.emplace_back(setting(result));
   page.sections.push_back(std::move(drawn));
 
+  report::Section space{"The first specimen in space", {}};
+  for (const auto& [test, words] : {std::pair("compression", "Compression"), std::pair("tension", "Tension")})
+    if (auto scene = scene_of_frames(folder / "frames" / test, words)) {
+      scene->caption = "Tested with the finished card to well past the peak, farther than the fit goes.";
+      space.blocks.emplace_back(std::move(*scene));
+    }
+  if (!space.blocks.empty()) page.sections.push_back(std::move(space));
   page.sections.push_back({"Material card", {card_table(result)}});
   report::Section data{"What the data determine", {}};
   add_sensitivity(data, result);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/impact_charts.h"
+#include "app/scene_of_frames.h"
 #include "report/html.h"
 
 namespace app {
@@ -180,7 +181,7 @@ report::Section energy_section(const Json& result) {
 
 }  // namespace
 
-report::Page impact_page(const Json& result, const std::filesystem::path& curves) {
+report::Page impact_page(const Json& result, const std::filesystem::path& folder) {
   report::Page page;
   page.title = text(result, "title").empty() ? "Impact" : "Impact: " + text(result, "title");
   page.verdict_words = verdict_of(result);
@@ -190,8 +191,11 @@ report::Page impact_page(const Json& result, const std::filesystem::path& curves
   if (!warnings.items.empty()) page.sections.push_back({"Warnings", {std::move(warnings)}});
   page.sections.push_back(results_section(result));
   page.sections.push_back(damage_section(result));
+  if (auto scene = scene_of_frames(folder / "frames", "The structure and the impactor"))
+    page.sections.push_back({"In space", {std::move(*scene)}});
   report::Section drawn{"Histories", {}};
-  for (report::Chart& chart : impact_charts(read_columns(curves))) drawn.blocks.emplace_back(std::move(chart));
+  for (report::Chart& chart : impact_charts(read_columns(folder / "curves.csv")))
+    drawn.blocks.emplace_back(std::move(chart));
   if (!drawn.blocks.empty()) page.sections.push_back(std::move(drawn));
   page.sections.push_back(energy_section(result));
   page.sections.push_back(formulas_section(result));

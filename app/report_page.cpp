@@ -86,13 +86,13 @@ void write_report(const std::filesystem::path& folder) {
   report::Page page;
   try {
     if (!text(result, "test").empty()) {
-      page = test_page(result, curves);
+      page = test_page(result, folder);
       page.title = "Virtual test: " + text(result, "test");
       page.subtitle = name;
     } else if (result.contains("card") && result.contains("targets")) {
-      page = calibration_page(result, curves);
+      page = calibration_page(result, folder);
     } else if (result.contains("model") && result.contains("max_displacement")) {
-      page = impact_page(result, curves);
+      page = impact_page(result, folder);
       page.subtitle = name;
     } else if (result.contains("study") && result.contains("rows")) {
       page = study_page(result);

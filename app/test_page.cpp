@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/curve_table.h"
+#include "app/scene_of_frames.h"
 #include "report/html.h"
 #include "specimens/virtual_tests/catalogue.h"
 
@@ -105,7 +106,7 @@ void add_charts(report::Section& drawn, const std::vector<Column>& columns) {
 
 }  // namespace
 
-report::Page test_page(const Json& result, const std::filesystem::path& curves) {
+report::Page test_page(const Json& result, const std::filesystem::path& folder) {
   report::Page page;
   const virtual_tests::TestDescription* test = virtual_tests::find_test(text(result, "test"));
   const bool uniaxial = result.contains("peak_stress") && result.contains("peak_strain");
@@ -135,7 +136,7 @@ report::Page test_page(const Json& result, const std::filesystem::path& curves) 
     for (const virtual_tests::MeasuredQuantity& quantity : test->measured) show(quantity.key);
   show("broken_links"), show("damage");
   page.sections.push_back({"Results", {std::move(measured)}});
-  const std::vector<Column> columns = read_columns(curves);
+  const std::vector<Column> columns = read_columns(folder / "curves.csv");
   const bool compressed = text(result, "test") == "compression" || text(result, "test") == "triaxial" ||
                           text(result, "loading") == "compression";
   report::Section drawn{"Curves", {}};
@@ -147,6 +148,8 @@ report::Page test_page(const Json& result, const std::filesystem::path& curves) 
   if (!columns.empty() && column(columns, "broken") != nullptr)
     drawn.blocks.emplace_back(damage_chart(columns));
   if (!drawn.blocks.empty()) page.sections.push_back(std::move(drawn));
+  if (auto scene = scene_of_frames(folder / "frames", "The specimen"))
+    page.sections.push_back({"In space", {std::move(*scene)}});
   report::KeyValues run = rows_of(result, {"elements", "links"});
   if (test != nullptr)
     for (const virtual_tests::TestOption& option : test->options) {

@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// From result.json and curves.csv, without title and provenance.
-report::Page test_page(const Json& result, const std::filesystem::path& curves);
+/// From what the run left in `folder`: result.json, curves.csv and frames, without title and provenance.
+report::Page test_page(const Json& result, const std::filesystem::path& folder);
 
 }  // namespace app

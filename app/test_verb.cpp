@@ -28,6 +28,7 @@ struct TestCommand {
   CommonOptions common;
   std::string specimen, card, output;
   bool resume = false, rate_check = false;
+  int pictures = 12;
   std::map<std::string, std::string> words;  ///< by the option's key
   std::map<std::string, bool> flags;
 };
@@ -108,8 +109,9 @@ virtual_tests::TestOutcome run_or_stop(const TestCommand& command, const Invocat
   if (command.resume && !std::filesystem::exists(checkpoint))
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew", checkpoint.string()));
   try {
-    return virtual_tests::run_test(inputs.specimen, inputs.card, options, console.progress(),
-                                   {.file = checkpoint, .resume = command.resume});
+    return virtual_tests::run_test(
+        inputs.specimen, inputs.card, options, console.progress(),
+        {.file = checkpoint, .resume = command.resume, .pictures = command.pictures});
   } catch (const dem::Interrupted& stop) {
     throw dem::Interrupted(fmt::format("{}; its state is kept in {}: go on with {}", stop.what(),
                                        checkpoint.string(), command_to_go_on(invocation)));
@@ -154,6 +156,8 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
     virtual_tests::write_element_fields(inputs.folder.file("fields.h5"), tested, found.fields);
     virtual_tests::write_link_fields(inputs.folder.file("links.h5"), tested, found.fields);
   }
+  if (found.fields.film.is_wanted())
+    virtual_tests::write_frames(inputs.folder.file("frames"), tested, found.fields.film, found.curve);
   say_what_came_out(test, found, inputs.card, console);
   Json result = result_of(test, found, command, inputs);
   if (command.rate_check) {
@@ -210,9 +214,10 @@ void add_one(CLI::App& parent, const TestDescription& test, Invocation& invocati
   verb->add_option("--specimen", command->specimen, "Specimen (HDF5)")->required();
   verb->add_option("--card", command->card, "Material card (TOML)")->required();
   const bool steps = test.usual_rate > 0 || test.dynamic;
-  verb->add_option("-o,--output", command->output,
-                   steps ? "Folder for result.json, run.json, curves.csv, report.html, fields.h5, links.h5"
-                         : "Folder for result.json, run.json, report.html")
+  verb->add_option(
+          "-o,--output", command->output,
+          steps ? "Folder for result.json, run.json, curves.csv, report.html, fields.h5, links.h5, frames/"
+                : "Folder for result.json, run.json, report.html")
       ->required();
   for (const TestOption& option : test.options) add_option(*verb, option, *command);
   const auto has = [&](const char* key) {
@@ -222,6 +227,11 @@ void add_one(CLI::App& parent, const TestDescription& test, Invocation& invocati
   if (has("velocity") && has("rate")) verb->get_option("--velocity")->excludes("--rate");
   if (steps) {
     verb->add_flag("--resume", command->resume, "Go on from the checkpoint in the output folder");
+    verb->add_option(
+            "--frames", command->pictures,
+            "Pictures of the test's course for report and ParaView, this many to twice as many; 0: none")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
     if (!test.dynamic)
       verb->add_flag("--rate-check", command->rate_check,
                      "Run once more at half the speed and say what the main quantity does");

@@ -1,38 +1,11 @@
 #include "impact/frames.h"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "libdem/core/atomic_file.h"
-#include "libdem/core/error.h"
-#include "libdem/io/vtkhdf.h"
 #include "libdem/probe/damage.h"
 
 namespace impact {
 namespace {
-
-constexpr std::array kinds = {"elements", "links", "finite_elements", "impactor"};
-/// The weakest: files shrink to less than half, at a speed that a run does not notice.
-constexpr int compression = 1;
-
-std::string file_name(const std::string& kind, int number) { return fmt::format("{}_{:04}.hdf", kind, number); }
-std::string index_name(const std::string& kind) { return kind + ".hdf.series"; }
-
-/// Whether a file of that name is one that a FrameWriter wrote.
-bool is_ours(const std::string& name) {
-  return std::any_of(kinds.begin(), kinds.end(), [&](const std::string& kind) {
-    if (name == index_name(kind)) return true;
-    if (!name.starts_with(kind + "_") || !name.ends_with(".hdf")) return false;
-    const std::string number = name.substr(kind.size() + 1, name.size() - kind.size() - 5);
-    return number.size() >= 4 && std::all_of(number.begin(), number.end(),
-                                             [](unsigned char letter) { return std::isdigit(letter) != 0; });
-  });
-}
 
 void append(std::vector<double>& values, const Vec3& vector) {
   values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
@@ -125,58 +98,21 @@ dem::VtkGrid impactor_grid(const Surface& surface, const Pose& pose) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(const Scene& scene, std::filesystem::path where, bool resume)
-    : folder(std::move(where)) {
-  dem::require_writable_folder(folder);
+FrameWriter::FrameWriter(const Scene& scene, std::filesystem::path folder, bool resume)
+    : series(std::move(folder), {"elements", "links", "finite_elements", "impactor"}, resume) {
   if (scene.impactor) impactor = surface_of(scene.impactor->shape);
-  if (resume) {
-    read_times(folder / index_name(kinds.front()));
-    return;
-  }
-  // A former run may have left more frames than this one will make.
-  std::error_code ignored;
-  std::vector<std::filesystem::path> former;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (is_ours(entry.path().filename().string())) former.push_back(entry.path());
-  for (const std::filesystem::path& file : former) std::filesystem::remove(file, ignored);
-}
-
-void FrameWriter::read_times(const std::filesystem::path& index) {
-  std::ifstream in(index);
-  if (!in) return;  // stopped before its first frame
-  try {
-    const nlohmann::json series = nlohmann::json::parse(in);
-    for (const auto& entry : series.at("files")) {
-      const auto name = entry.at("name").get<std::string>();
-      if (is_ours(name) && std::filesystem::exists(folder / name))
-        times[std::stoi(name.substr(name.rfind('_') + 1))] = entry.at("time").get<double>();
-    }
-  } catch (const std::exception&) {
-    throw dem::InputError(index.string(), "this is no index of frames",
-                          "remove it to go on with the frames that are still to come");
-  }
 }
 
 void FrameWriter::write(const Frame& frame) {
-  const auto put = [&](const std::string& kind, const dem::VtkGrid& grid) {
-    dem::write_vtkhdf(folder / file_name(kind, frame.number), grid, compression);
+  const auto put = [&](const char* kind, const dem::VtkGrid& grid) {
+    series.write(frame.number, {frame.time}, kind, grid);
   };
   put("elements", elements_grid(*frame.assembly));
   put("links", links_grid(*frame.assembly));
-  const bool finite = frame.mesh != nullptr && frame.nodes != nullptr;
-  if (finite) put("finite_elements", nodes_grid(*frame.mesh, *frame.nodes));
+  if (frame.mesh != nullptr && frame.nodes != nullptr)
+    put("finite_elements", nodes_grid(*frame.mesh, *frame.nodes));
   if (!impactor.triangles.empty()) put("impactor", impactor_grid(impactor, frame.impactor));
-  times[frame.number] = frame.time;
-  for (const std::string kind : kinds)
-    if ((kind != "finite_elements" || finite) && (kind != "impactor" || !impactor.triangles.empty()))
-      write_index(kind);
-}
-
-void FrameWriter::write_index(const std::string& kind) const {
-  nlohmann::ordered_json series = {{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
-  for (const auto& [number, time] : times)
-    series["files"].push_back({{"name", file_name(kind, number)}, {"time", time}});
-  dem::write_file_atomically(folder / index_name(kind), series.dump(1) + "\n");
+  series.write_indexes();
 }
 
 }  // namespace impact

@@ -134,6 +134,18 @@ class Writer {
     html += "</tbody></table></div>\n";
   }
 
+  // What it shows in words: all that a reader without a picture has.
+  void operator()(const Scene& scene) {
+    html += fmt::format(
+        "<figure class=\"scene\"><div class=\"head\"><h3>{}</h3></div>\n<p>{} elements at {} moments, the "
+        "last: {}. "
+        "{} links are broken by then.</p>\n",
+        escape(scene.title), scene.elements(), scene.frames.size(), escape(scene.frames.back().label),
+        scene.broken_links.size());
+    if (!scene.caption.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", escape(scene.caption));
+    html += "</figure>\n";
+  }
+
   void operator()(const Chart& chart) {
     check(chart);
     html +=

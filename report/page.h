@@ -83,7 +83,7 @@ struct Chart {
   std::string caption = "";  ///< one or two sentences below
 };
 
-using Block = std::variant<Text, List, KeyValues, Table, Targets, Chart>;
+using Block = std::variant<Text, List, KeyValues, Table, Targets, Chart, Scene>;
 
 struct Section {
   std::string title;

@@ -6,6 +6,7 @@
 #include "libdem/core/vector.h"
 #include "libdem/probe/energy.h"
 #include "libdem/run/step.h"
+#include "specimens/virtual_tests/film.h"
 
 namespace virtual_tests {
 
@@ -16,6 +17,7 @@ struct FinalFields {
   std::vector<dem::Vec3> displacement;  ///< of each element, at the end [m]
   std::vector<LinkState> link_state;    ///< of each of the specimen's links, at the end
   std::vector<double> link_strain;      ///< elongation over D_init of each link, at the end [-]
+  Film film;  ///< the test in pictures, the last of them at the end; empty unless wanted
 };
 
 /// The fields of a settled assembly.

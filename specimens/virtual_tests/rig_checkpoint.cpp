@@ -44,6 +44,7 @@ dem::NamedNumbers numbers_of(const RigRecord& record, Rig& rig, const dem::Parti
     if (particles.prescribed[i] != 0)
       force.insert(force.end(), particles.force[i].value, particles.force[i].value + 6);
   for (const auto& [name, value] : rig.numbers()) numbers["rig_" + name] = {*value};
+  record.film.keep_in(numbers);
   numbers["rebuilds"] = {static_cast<double>(record.rebuilds + rebuilds)};
   numbers["wall_seconds"] = {record.wall.seconds()};
   numbers["loop_seconds"] = {record.loop.seconds()};
@@ -73,6 +74,7 @@ void set_from(RigRecord& record, Rig& rig, dem::Particles& particles, const dem:
     if (particles.prescribed[i] != 0)
       for (int c = 0; c < 6; ++c) particles.force[i].value[c] = force[at++];
   for (const auto& [name, value] : rig.numbers()) *value = column("rig_" + name)[0];
+  record.film.restore(numbers, file);
   record.rebuilds = static_cast<int>(column("rebuilds")[0]);
   record.wall.before = column("wall_seconds")[0];
   record.loop.before = column("loop_seconds")[0];

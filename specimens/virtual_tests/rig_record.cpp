@@ -10,7 +10,7 @@
 
 namespace virtual_tests {
 
-RigRecord::RigRecord(const RigFacts& facts) : extra(facts.extra.size(), 0.0) {
+RigRecord::RigRecord(const RigFacts& facts, int pictures) : extra(facts.extra.size(), 0.0), film(pictures) {
   curve.columns = {facts.control, {"force", "N"}, {"stress", "Pa"}};
   curve.columns.insert(curve.columns.end(), facts.extra.begin(), facts.extra.end());
   curve.columns.push_back({"broken", "-"});
@@ -53,14 +53,17 @@ void close_window(RigRecord& record, const RigPlan& plan, dem::Assembly& assembl
         fmt::format("the {} test diverged at step {}: the force is no number; lower the time step fraction",
                     plan.facts.name, record.steps));
   const std::size_t windows = record.shape.size();
+  const double stress = force * plan.facts.stress_per_force;
   if (windows % 4 == 0) {  // these pass over all links
     settle(assembly, room);
     read_pair_energies(record.ledger, assembly);
     record.worst_imbalance = std::max(record.worst_imbalance, std::abs(record.ledger.imbalance()));
     record.broken = static_cast<double>(dem::broken_links(assembly.law, assembly.links)) /
                     static_cast<double>(assembly.links.count);
+    if (record.film.is_due())
+      record.film.take(assembly, plan.step.time_step * static_cast<double>(record.steps), record.control,
+                       stress);
   }
-  const double stress = force * plan.facts.stress_per_force;
   std::vector<double>& values = record.curve.values;
   values.insert(values.end(), {record.control, force, stress});
   values.insert(values.end(), record.extra.begin(), record.extra.end());
@@ -101,6 +104,9 @@ TestOutcome conclude(RigRecord&& record, const RigPlan& plan, const Rig& rig, de
   outcome.measured = rig.measure(record.curve);
   outcome.curve = std::move(record.curve);
   outcome.fields = final_fields(assembly);
+  record.film.take(assembly, plan.step.time_step * static_cast<double>(record.steps),
+                   record.shape.back().strain, last);
+  outcome.fields.film = std::move(record.film);
   if (rig.changed_specimen()) outcome.tested = rig.specimen();
   outcome.wall_seconds = record.wall.seconds();
   return outcome;

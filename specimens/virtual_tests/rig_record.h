@@ -4,6 +4,7 @@
 #include "libdem/run/checkpoint.h"
 #include "libdem/run/step.h"
 #include "specimens/virtual_tests/curve.h"
+#include "specimens/virtual_tests/film.h"
 #include "specimens/virtual_tests/rig.h"
 #include "specimens/virtual_tests/stopwatch.h"
 
@@ -41,9 +42,10 @@ struct RigRecord {
   double peak = 0;             ///< highest stress so far [Pa]
   std::size_t peak_index = 0;  ///< its place in the curve
   int rebuilds = 0;            ///< of the contact list, before a stop
+  Film film;
   Stopwatch wall, loop;
 
-  explicit RigRecord(const RigFacts& facts);
+  RigRecord(const RigFacts& facts, int pictures);
 };
 
 /// Books one step that moved everything as `sums` says and took `work` from outside [J].

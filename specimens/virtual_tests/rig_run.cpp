@@ -137,7 +137,7 @@ TestOutcome run_rig(Rig& rig, const dem::MaterialCard& card, const QuasiStaticOp
                     const std::string& sha256_of_options, const dem::ProgressCallback& progress,
                     const CheckpointPolicy& checkpoint) {
   options.validate();
-  RigRecord record(rig.facts());
+  RigRecord record(rig.facts(), checkpoint.pictures);
   dem::Assembly assembly = make_assembly(rig.specimen(), card);
   dem::Particles& particles = assembly.particles;
   const RigPlan plan = make_plan(rig, card, options, assembly);

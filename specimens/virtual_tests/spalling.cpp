@@ -73,6 +73,7 @@ struct Record {
   BarHistory history;
   dem::EnergyLedger ledger;
   double worst_imbalance = 0;
+  Film film;
   Stopwatch wall, loop;
 };
 
@@ -91,6 +92,7 @@ dem::NamedNumbers numbers_of(const Record& record, const dem::Particles& particl
     const double* force = particles.force[static_cast<std::size_t>(i)].value;
     numbers["struck_force"].insert(numbers["struck_force"].end(), force, force + 3);
   }
+  record.film.keep_in(numbers);
   return numbers;
 }
 
@@ -105,6 +107,7 @@ void set_from(Record& record, dem::Particles& particles, const std::vector<std::
   const std::vector<double>& l = column("ledger");
   if (l.size() == 6) record.ledger = {l[0], 0, l[1], l[2], l[3], l[4], l[5]};
   record.worst_imbalance = number("worst_imbalance");
+  record.film.restore(numbers, file);
   record.wall.before = number("wall_seconds");
   record.loop.before = number("loop_seconds");
   const std::vector<double>& force = column("struck_force");
@@ -146,6 +149,12 @@ void read_energies(Record& record, dem::Assembly& assembly, const dem::StepRoom&
   settle(assembly, room);
   read_pair_energies(record.ledger, assembly);
   record.worst_imbalance = std::max(record.worst_imbalance, std::abs(record.ledger.imbalance()));
+}
+
+/// Time is all that is driven here, and no one stress is the bar's.
+void take_picture(Record& record, const dem::Assembly& assembly) {
+  const double time = record.history.time.back();
+  record.film.take(assembly, time, time, std::numeric_limits<double>::quiet_NaN());
 }
 
 /// The plane that broke: the earliest to be pulled far among those that are broken most.
@@ -255,6 +264,7 @@ TestOutcome run_spalling(const specimens::Specimen& specimen, const dem::Materia
                          const SpallingOptions& options, const std::string& sha256_of_options,
                          const dem::ProgressCallback& progress, const CheckpointPolicy& checkpoint) {
   Record record;
+  record.film = Film(checkpoint.pictures);
   const Plan plan = make_plan(specimen, card, options);
   dem::Assembly assembly = make_assembly(specimen, card);
   dem::Particles& particles = assembly.particles;
@@ -302,7 +312,10 @@ TestOutcome run_spalling(const specimens::Specimen& specimen, const dem::Materia
             "the spalling test diverged at step {}: the free end's velocity is no number; lower the "
             "time step fraction",
             record.steps));
-      if (record.history.time.size() % 10 == 0) read_energies(record, assembly, room);
+      if (record.history.time.size() % 10 == 0) {
+        read_energies(record, assembly, room);
+        if (record.film.is_due()) take_picture(record, assembly);
+      }
       if (progress)
         progress({"spalling", static_cast<double>(record.steps), static_cast<double>(all_steps), "steps",
                   fmt::format("free end {:.3f} m/s", last)});
@@ -328,6 +341,8 @@ TestOutcome run_spalling(const specimens::Specimen& specimen, const dem::Materia
                      {"pulse_duration", plan.duration}};
   measure(outcome, slices, record.history, plan, assembly, card.density, options.static_strength);
   outcome.fields = final_fields(assembly);
+  take_picture(record, assembly);
+  outcome.fields.film = std::move(record.film);
   outcome.wall_seconds = record.wall.seconds();
   return outcome;
 }

@@ -59,6 +59,7 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
                             const UniaxialOptions& options, const dem::ProgressCallback& progress,
                             const CheckpointPolicy& checkpoint) {
   UniaxialRecord record;
+  record.film = Film(checkpoint.pictures);
   options.validate();
   dem::Assembly assembly = make_assembly(specimen, card);
   const UniaxialPlan plan = make_plan(specimen, card, options, assembly);

@@ -57,6 +57,7 @@ dem::NamedNumbers numbers_of(const UniaxialRecord& record, int rebuilds) {
   numbers["platen_friction"] = record.friction.memory();
   std::vector<double>& curve = numbers["curve"];
   for (const CurvePoint& point : record.curve) append(curve, point);
+  record.film.keep_in(numbers);
   numbers["rebuilds"] = {static_cast<double>(record.rebuilds + rebuilds)};
   numbers["wall_seconds"] = {record.wall.seconds()};
   numbers["loop_seconds"] = {record.loop.seconds()};
@@ -78,6 +79,7 @@ void set_from(UniaxialRecord& record, const dem::NamedNumbers& numbers, const st
   const std::vector<double>& curve = column_of(numbers, "curve", file, true);
   record.curve.clear();
   for (std::size_t k = 0; k + 5 < curve.size(); k += 6) record.curve.push_back(point_from(curve, k));
+  record.film.restore(numbers, file);
   record.rebuilds = static_cast<int>(column("rebuilds")[0]);
   record.wall.before = column("wall_seconds")[0];
   record.loop.before = column("loop_seconds")[0];

@@ -67,6 +67,9 @@ void close_window(UniaxialRecord& record, const UniaxialPlan& plan, dem::Assembl
     record.worst_imbalance = std::max(record.worst_imbalance, std::abs(record.ledger.imbalance()));
     point.broken = static_cast<double>(dem::broken_links(assembly.law, assembly.links)) /
                    static_cast<double>(assembly.links.count);
+    if (record.film.is_due())
+      record.film.take(assembly, plan.step.time_step * static_cast<double>(record.steps), point.strain,
+                       point.stress);
   }
   record.curve.push_back(point);
   if (point.stress > record.peak) record.peak = point.stress, record.peak_index = windows;
@@ -111,6 +114,9 @@ UniaxialResult conclude(UniaxialRecord&& record, const UniaxialPlan& plan, dem::
   result.broken_links = dem::broken_links(assembly.law, assembly.links);
   result.contacts = assembly.contacts.count;
   static_cast<FinalFields&>(result) = final_fields(assembly);
+  record.film.take(assembly, plan.step.time_step * static_cast<double>(record.steps),
+                   result.curve.back().strain, last);
+  result.film = std::move(record.film);
   result.detector_rebuilds = record.rebuilds + room.detector.rebuilds();
   result.state_sha256 = dem::state_sha256(assembly);
   result.wall_seconds = record.wall.seconds();

@@ -4,6 +4,7 @@
 #include "libdem/probe/energy.h"
 #include "libdem/run/step.h"
 #include "specimens/virtual_tests/curve.h"
+#include "specimens/virtual_tests/film.h"
 #include "specimens/virtual_tests/stopwatch.h"
 #include "specimens/virtual_tests/uniaxial_plan.h"
 
@@ -26,6 +27,7 @@ struct UniaxialRecord {
   double peak = 0;               ///< highest stress so far [Pa]
   std::size_t peak_index = 0;    ///< its place in the curve
   int rebuilds = 0;              ///< of the contact list, before a stop
+  Film film;
   Stopwatch wall, loop;
 };
 

@@ -263,6 +263,15 @@ TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
   EXPECT_EQ(read("out/fields.h5"), read("whole/fields.h5"));
   EXPECT_EQ(read("out/links.h5"), read("whole/links.h5"));
   EXPECT_THAT(files(), Not(testing::Contains("out/checkpoint.h5")));
+  // And the same pictures, those from before the stop among them.
+  const auto series = json("whole/frames/elements.hdf.series");
+  EXPECT_EQ(json("out/frames/elements.hdf.series"), series);
+  ASSERT_GE(series["files"].size(), 12u);
+  EXPECT_LE(series["files"].size(), 25u);
+  for (const auto& frame : series["files"]) {
+    const std::string name = "/frames/" + frame["name"].get<std::string>();
+    EXPECT_EQ(read("out" + name), read("whole" + name)) << name;
+  }
 }
 
 TEST_F(VirtualTest, ResumeWithoutACheckpointSaysSoAndStartsAnew) {
@@ -271,6 +280,26 @@ TEST_F(VirtualTest, ResumeWithoutACheckpointSaysSoAndStartsAnew) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("nothing to go on from"));
   EXPECT_THAT(files(), IsSupersetOf({"out/result.json", "out/fields.h5", "out/links.h5"}));
+}
+
+TEST_F(VirtualTest, TheReportShowsTheSpecimenInSpaceUnlessNoFramesAreWanted) {
+  make_specimen();
+  ASSERT_EQ(spall(test("tension", {"--frames", "3"})).code, 0);
+  const auto frames = json("out/frames/elements.hdf.series")["files"];
+  EXPECT_GE(frames.size(), 3u);
+  EXPECT_LE(frames.size(), 7u);
+  EXPECT_THAT(frames.back()["label"].get<std::string>(), AllOf(HasSubstr("strain"), HasSubstr("MPa")));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("In space"));
+  ASSERT_EQ(
+      spall({"test", "tension", "--specimen", "s1.h5", "--card", "card.toml", "-o", "bare", "--frames", "0"})
+          .code,
+      0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "bare/frames"));
+  EXPECT_THAT(read("bare/report.html"), Not(HasSubstr("In space")));
+  EXPECT_EQ(json("bare/result.json")["state_sha256"], json("out/result.json")["state_sha256"]);
+  EXPECT_THAT(refusal(2, test("tension", {"--frames", "-1"})), HasSubstr("--frames"));
+  write("out/frames/elements.hdf.series", "{");
+  EXPECT_THAT(refusal(2, {"report", "out"}), HasSubstr("elements.hdf.series"));
 }
 
 TEST_F(VirtualTest, ReportNeedsAFinishedRun) {
