@@ -1,17 +1,21 @@
 // spall card show | check | export | example
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/console.h"
 #include "app/verbs.h"
-#include "libdem/config/nearest_name.h"
+#include "app/version.h"
+#include "exchange/export.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
 #include "libdem/material/element_size_rule.h"
 #include "libdem/material/material_card.h"
 #include "libdem/material/micro_macro.h"
+#include "specimens/specimen_file.h"
 
 namespace app {
 namespace {
@@ -20,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 struct CardOptions {
   CommonOptions common;
-  std::string card, format, from, to, output;
+  std::string card, format, specimen, from, to, output;
 };
 
 Json to_json(const dem::MaterialCard& card) {
@@ -31,16 +35,6 @@ Json to_json(const dem::MaterialCard& card) {
   json["provenance"] = Json::object();
   for (const auto& [key, value] : card.provenance) json["provenance"][key] = value;
   return json;
-}
-
-/// Key, value, SI unit, meaning: for spreadsheets and for codes that have no exporter of their own.
-std::string to_csv(const dem::MaterialCard& card) {
-  std::string text = "key,value,unit,meaning\n";
-  for (const dem::CardNumber& number : dem::numbers_of(card))
-    text +=
-        fmt::format("{},{},{},\"{}\"\n", number.key, number.value, dem::si_unit(number.kind), number.meaning);
-  for (const auto& [key, value] : dem::choices_of(card)) text += fmt::format("{},{},-,\n", key, value);
-  return text;
 }
 
 int show(const CardOptions& options) {
@@ -83,15 +77,48 @@ int deliver(const CardOptions& options, const std::string& text, const Json& jso
 }
 
 int export_card(const CardOptions& options) {
-  const std::vector<std::string> planned{"yade-jcfpm", "yade-cpm", "lammps-bpm"};
-  if (options.format != "csv") {
-    const bool known = std::find(planned.begin(), planned.end(), options.format) != planned.end();
-    throw dem::InputError(
-        "--to", fmt::format("\"{}\" is {}", options.format, known ? "not available yet" : "no format"),
-        known ? "available: csv" : dem::suggestion(options.format, {"csv"}));
-  }
+  const exchange::Format format = exchange::format_named(options.format);
   const dem::MaterialCard card = dem::read_card(options.card);
-  return deliver(options, to_csv(card), to_json(card));
+  std::optional<specimens::Specimen> specimen;
+  if (!options.specimen.empty()) {
+    if (options.output.empty())
+      throw dem::InputError("-o", "is missing",
+                            "a specimen takes files of its own beside the card's: name one with -o");
+    specimen = specimens::read_specimen(options.specimen);
+  }
+  const std::filesystem::path output = options.output;
+  const exchange::Exported exported = exchange::export_card(
+      format,
+      {card, specimen ? &*specimen : nullptr, fmt::format("Spall {}", version), output.filename().string()});
+
+  Console console(options.common);
+  if (options.output.empty()) {
+    if (options.common.json && format == exchange::Format::csv)
+      fmt::print("{}\n", to_json(card).dump(2));
+    else if (options.common.json)
+      fmt::print("{}\n",
+                 Json{{"format", options.format}, {"text", exported.text}, {"lost", exported.lost}}.dump(2));
+    else
+      fmt::print("{}", exported.text);
+    return done;
+  }
+  require_writable_file(options.output);
+  Json files = Json::array();
+  for (const exchange::Companion& file : exported.beside) {
+    const std::filesystem::path path = output.parent_path() / file.name;
+    if (path == output)
+      throw dem::InputError(options.output, "is the name of the file that goes beside it",
+                            "give -o another ending");
+    dem::write_file_atomically(path, file.text);
+    console.say(fmt::format("wrote {}", path.string()));
+    files.push_back(path.string());
+  }
+  dem::write_file_atomically(output, exported.text);
+  console.say(fmt::format("wrote {}", options.output));
+  if (!exported.lost.empty()) console.say(fmt::format("What {} does otherwise than the card:", options.format));
+  for (const std::string& loss : exported.lost) console.say("- " + loss);
+  console.result(Json{{"output", options.output}, {"beside", files}, {"lost", exported.lost}}.dump(2));
+  return done;
 }
 
 int rescale(const CardOptions& options) {
@@ -131,11 +158,20 @@ void add_card(CLI::App& root, Invocation& invocation) {
       make_one + "spall card check card.toml", check)
       ->add_option("card", options->card, "Material card (TOML)")
       ->required();
-  CLI::App* exporter = add("export", "Write a card for another code",
-                           make_one + "spall card export card.toml --to csv -o card.csv", export_card);
+  CLI::App* exporter =
+      add("export", "Write a card, and a specimen, for another code; says what that code's law does otherwise",
+          make_one +
+              "spall card export card.toml --to csv -o card.csv\n"
+              "spall specimen make --size \"0.4x0.2x0.2 m\" --elements 1400 --seed 1 -o s1.h5\n"
+              "spall card export card.toml --to yade-cpm --specimen s1.h5 -o concrete.py",
+          export_card);
   exporter->add_option("card", options->card, "Material card (TOML)")->required();
-  exporter->add_option("--to", options->format, "Format: csv (yade-jcfpm, yade-cpm and lammps-bpm are planned)")
+  exporter
+      ->add_option("--to", options->format,
+                   fmt::format("Format: {}", fmt::join(exchange::format_names(), ", ")))
       ->required();
+  exporter->add_option("--specimen", options->specimen,
+                       "Specimen (HDF5) whose elements and links go along, in files beside the one of -o");
   exporter->add_option("-o,--output", options->output, "File to write (default: standard output)");
   CLI::App* scaler =
       add("rescale", "Bring a card to elements of another size: same tensile strength and fracture energy",

@@ -8,7 +8,7 @@ set(spall_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/spall)
 
 install(TARGETS ${spall_rooms} EXPORT spall ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT spall NAMESPACE spall:: FILE spall-targets.cmake DESTINATION ${spall_package_folder})
-foreach(room libdem specimens calibrate impact report study)
+foreach(room libdem specimens exchange calibrate impact report study)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${room})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spall
             FILES_MATCHING PATTERN "*.h")

@@ -85,16 +85,6 @@ TEST_F(Card, WhatShowPrintsIsACardAgain) {
             spall({"card", "show", "card.toml", "--json"}).out);
 }
 
-TEST_F(Card, ExportsCsvAndSaysWhatElseIsPlanned) {
-  write("card.toml", good_card);
-  EXPECT_THAT(spall({"card", "export", "card.toml", "--to", "csv"}).out,
-              AllOf(HasSubstr("key,value,unit,meaning\n"), HasSubstr("\nT,3100000,Pa,")));
-  EXPECT_EQ(spall({"card", "export", "card.toml", "--to", "csv", "-o", "a/b.csv"}).code, 0);
-  EXPECT_THAT(read("a/b.csv"), HasSubstr("\nT,3100000,Pa,"));
-  EXPECT_THAT(refusal(2, {"card", "export", "card.toml", "--to", "yade-cpm"}), HasSubstr("available: csv"));
-  EXPECT_THAT(refusal(2, {"card", "export", "card.toml", "--to", "csw"}), HasSubstr("did you mean \"csv\"?"));
-}
-
 TEST_F(Card, AFolderThatCannotBeWrittenIsExitCode1) {
   write("card.toml", good_card);
   EXPECT_THAT(refusal(1, {"card", "export", "card.toml", "--to", "csv", "-o", "card.toml/x/card.csv"}),

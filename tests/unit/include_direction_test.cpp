@@ -33,6 +33,7 @@ constexpr std::array kRooms = {
     "libdem/run",
     "specimens",
     "specimens/virtual_tests",
+    "exchange",
     "calibrate/lab",
     "calibrate",
     "impact/fe",
@@ -100,7 +101,7 @@ TEST(IncludeDirection, RunsOneWayThroughoutTheTree) {
   const fs::path root = SPALL_SOURCE_DIR;
   std::vector<std::string> complaints;
   int files = 0;
-  for (const char* top : {"libdem", "specimens", "calibrate", "impact", "report", "study", "app", "python"}) {
+  for (const char* top : {"libdem", "specimens", "exchange", "calibrate", "impact", "report", "study", "app", "python"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const auto extension = entry.path().extension();
