@@ -79,7 +79,7 @@ void add_provenance(report::Page& page, const Json& run) {
 
 }  // namespace
 
-void write_report(const std::filesystem::path& folder) {
+report::Page page_of_run(const std::filesystem::path& folder) {
   const Json result = read_json(folder / "result.json");
   const std::filesystem::path curves = folder / "curves.csv";
   const std::string name = std::filesystem::absolute(folder / ".").lexically_normal().parent_path().filename();
@@ -107,7 +107,11 @@ void write_report(const std::filesystem::path& folder) {
                           "give the folder of a finished run, as the run left it");
   }
   if (std::filesystem::exists(folder / "run.json")) add_provenance(page, read_json(folder / "run.json"));
-  report::write_page(folder / "report.html", page);
+  return page;
+}
+
+void write_report(const std::filesystem::path& folder) {
+  report::write_page(folder / "report.html", page_of_run(folder));
 }
 
 }  // namespace app
