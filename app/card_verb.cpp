@@ -123,9 +123,10 @@ int export_card(const CardOptions& options) {
 
 int rescale(const CardOptions& options) {
   const dem::MaterialCard card = dem::read_card(options.card);
+  const double from = dem::parse_quantity(options.from, dem::Quantity::length, "--from");
+  const double to = dem::parse_quantity(options.to, dem::Quantity::length, "--to");
   const dem::MaterialCard made =
-      dem::for_element_size(card, dem::parse_quantity(options.from, dem::Quantity::length, "--from"),
-                            dem::parse_quantity(options.to, dem::Quantity::length, "--to"));
+      told_about("--from and --to", [&] { return dem::for_element_size(card, from, to); });
   return deliver(options, dem::to_toml(made), to_json(made));
 }
 

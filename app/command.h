@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "libdem/core/error.h"
+
 namespace app {
 
 /// Exit codes of the command; scripts rely on them.
@@ -45,5 +47,15 @@ std::string explain(const CLI::App& root, const CLI::ParseError& error,
 /// A path for -o: the file itself must not be a folder, and its folder must be writable. Throws RunError. Call
 /// it before any computing.
 void require_writable_file(const std::string& file);
+
+/// What a room below refuses gets the option in front from which it came.
+template <class Action>
+auto told_about(const std::string& option, Action&& action) {
+  try {
+    return action();
+  } catch (const dem::InputError& error) {
+    throw dem::InputError(option, error.what(), "");
+  }
+}
 
 }  // namespace app

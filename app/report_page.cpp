@@ -57,6 +57,16 @@ report::Page plain_page(const Json& result, const std::filesystem::path& curves)
   return page;
 }
 
+/// A result of no kind that is known may be one of a later Spall, but not anything at all.
+void require_some_run(const Json& result, const std::filesystem::path& folder) {
+  const std::filesystem::path provenance = folder / "run.json";
+  const bool ours = result.is_object() && !result.empty() && std::filesystem::exists(provenance) &&
+                    read_json(provenance).contains("command_line");
+  if (!ours)
+    throw dem::InputError((folder / "result.json").string(), "this is no result of a run that Spall knows",
+                          "give the folder of a finished run, as the run left it");
+}
+
 void add_provenance(report::Page& page, const Json& run) {
   auto& rows = page.provenance;
   for (const auto& [key, value] : run.items()) {
@@ -98,6 +108,7 @@ report::Page page_of_run(const std::filesystem::path& folder) {
       page = study_page(result);
       page.subtitle = name;
     } else {
+      require_some_run(result, folder);
       page = plain_page(result, curves);
       page.subtitle = name;
     }

@@ -78,7 +78,9 @@ int make(SpecimenOptions& options) {
                                                                   : specimens::Grading::Kind::equal;
   options.packing.threads = options.common.thread_count();
   options.packing.validate();
-  specimens::require_enough_elements(options.packing.shape, options.packing.size, options.packing.elements);
+  told_about("--elements", [&] {
+    specimens::require_enough_elements(options.packing.shape, options.packing.size, options.packing.elements);
+  });
   require_writable_file(options.output);
   use_threads(options.common);
   Console console(options.common);
@@ -95,7 +97,8 @@ int extract(SpecimenOptions& options) {
   const specimens::Specimen whole = specimens::read_specimen(options.file);
   require_writable_file(options.output);
   Console console(options.common);
-  specimens::Specimen part = specimens::extract(whole, shape_of(options), centre, size);
+  specimens::Specimen part = told_about(
+      "--centre and --size", [&] { return specimens::extract(whole, shape_of(options), centre, size); });
   specimens::write_specimen(options.output, part);
   tell(console, options.output, specimens::inspect(part));
   return done;

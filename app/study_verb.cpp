@@ -241,7 +241,13 @@ const std::string small_study =
 void add_running(CLI::App* verb, StudyOptions& options) {
   verb->add_option("--memory", options.memory,
                    "Memory for all tasks at a time, as 8GB (default: nine tenths of what is available)")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(CLI::Validator(
+          [](std::string& text) {
+            const bool number = !text.empty() && text[0] >= '0' && text[0] <= '9';
+            return number ? std::string() : fmt::format("\"{}\" is no amount of memory, as 8GB is", text);
+          },
+          ""));
   verb->add_flag("--retry-failed", options.retry_failed, "Run tasks again that failed before");
   verb->add_flag("--resume", options.resume, "Go on where a run was stopped: a study always does");
 }

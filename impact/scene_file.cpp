@@ -156,6 +156,10 @@ std::vector<Probe> read_probes(const TomlTable& root, const Vec3& size) {
 void read_run(const TomlTable& run, Scene& scene) {
   run.allow_only({"duration", "time_step_fraction", "damping", "samples"});
   scene.duration = read_positive(run, "duration", Quantity::time);
+  // Steps are some microseconds at most: an hour of them would take years.
+  constexpr double longest = 3600;
+  if (scene.duration > longest)
+    run.fail("duration", fmt::format("is {:g} s", scene.duration), fmt::format("at most {:g} s", longest));
   scene.time_step_fraction = read_number(
       run, "time_step_fraction", scene.time_step_fraction, [](double value) { return value > 0 && value < 1; },
       "above 0 to below 1, of the critical step");

@@ -81,6 +81,12 @@ std::array<int, 3> read_counts(const TomlTable& mesh, const char* key, const cha
       mesh.fail(key, fmt::format("{} along {}", counts[k], axis_name[k]), "allowed: 1 to 10000");
     result[k] = static_cast<int>(counts[k]);
   }
+  // What a large machine holds; the product of three counts of 10000 is beyond any.
+  constexpr double most = 50e6;
+  const double product =
+      static_cast<double>(result[0]) * static_cast<double>(result[1]) * static_cast<double>(result[2]);
+  if (product > most)
+    mesh.fail(key, fmt::format("makes {:.3g} elements", product), fmt::format("allowed: at most {:g}", most));
   return result;
 }
 

@@ -135,8 +135,10 @@ double sargin(double eta, double k) { return (k * eta - eta * eta) / (1 + (k - 2
 
 double parse_strength_class(std::string_view text, const std::string& where) {
   const std::string remedy = "write a class such as \"C40/50\" or a strength such as \"40 MPa\"";
-  if (text.empty() || (text.front() != 'C' && text.front() != 'c'))
-    return dem::parse_quantity(text, dem::Quantity::stress, where);
+  const bool is_class = text.starts_with('C') || text.starts_with('c');
+  if (!is_class && text.find_first_of("0123456789") != 0)
+    throw InputError(where, fmt::format("\"{}\" is no strength class", text), remedy);
+  if (!is_class) return dem::parse_quantity(text, dem::Quantity::stress, where);
   const auto number = [&](std::string_view part) -> double {
     double value = 0;
     const auto [end, error] =

@@ -87,6 +87,34 @@ double take_number(std::string_view& text, std::string_view whole, Quantity quan
   return value;
 }
 
+/// The unit may carry a number beyond what a double holds.
+double finite(double value, std::string_view text, Quantity quantity, const std::string& where) {
+  if (!std::isfinite(value))
+    throw InputError(where, fmt::format("\"{}\" is too large a number", text),
+                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
+  return value;
+}
+
+/// UDUNITS-2 takes "4 MPa" for a unit of its own, and a value before it would be four times what is meant.
+void refuse_numbers_in_a_unit(std::string_view unit, Quantity quantity, const std::string& where) {
+  const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  const auto refuse = [&](const std::string& wrong) {
+    throw InputError(where, wrong,
+                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
+  };
+  if (unit.size() > 1 && unit[0] == ',' && is_digit(unit[1]))
+    refuse("a comma stands in the number, not a point");
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const bool number = is_digit(unit[k]) || (unit[k] == '.' && k + 1 < unit.size() && is_digit(unit[k + 1]));
+    // An exponent stands behind its unit, as in m3, m^3 or s-2; "1/s" is a unit too.
+    const bool begins =
+        k == 0 || unit[k - 1] == ' ' || unit[k - 1] == ',' ||
+        ((unit[k - 1] == 'x' || unit[k - 1] == '-' || unit[k - 1] == '+') && (k == 1 || unit[k - 2] == ' '));
+    if (number && begins && unit.substr(k, 2) != "1/")
+      refuse(fmt::format("\"{}\" follows the number: one number and its unit are due", unit));
+  }
+}
+
 }  // namespace
 
 std::string_view si_unit(Quantity quantity) { return quantity == Quantity::ratio ? "-" : kind(quantity).unit; }
@@ -96,6 +124,7 @@ double unit_factor(std::string_view unit, Quantity quantity, const std::string& 
   unit = trim(unit);
   const Kind wanted = kind(quantity);
   if (quantity == Quantity::ratio && (unit.empty() || unit == "-" || unit == "1")) return 1;
+  refuse_numbers_in_a_unit(unit, quantity, where);
   if (unit.empty())
     throw InputError(where, "the unit is missing",
                      fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
@@ -118,7 +147,7 @@ double unit_factor(std::string_view unit, Quantity quantity, const std::string& 
 double parse_quantity(std::string_view text, Quantity quantity, const std::string& where) {
   std::string_view rest = text;
   const double value = take_number(rest, text, quantity, where);
-  return value * unit_factor(rest, quantity, where);
+  return finite(value * unit_factor(rest, quantity, where), text, quantity, where);
 }
 
 std::vector<double> parse_quantities(std::string_view text, Quantity quantity, const std::string& where) {
@@ -131,7 +160,7 @@ std::vector<double> parse_quantities(std::string_view text, Quantity quantity, c
     rest.remove_prefix(1);
   }
   const double factor = unit_factor(rest, quantity, where);
-  for (double& value : values) value *= factor;
+  for (double& value : values) value = finite(value * factor, text, quantity, where);
   return values;
 }
 
