@@ -90,6 +90,9 @@ std::string how_it_went(const Json& result) {
   if (!result.contains("quasi_static"))  // a dynamic test
     return result.value("passed_peak", true) ? "" : "The bar did not break.";
   if (!result.value("passed_peak", true)) return "The test ended at its limit before the peak was passed.";
+  if (number(result, "energy_balance_error") > 0.01)
+    return fmt::format("The energy balance is open by {}; lower the time step fraction.",
+                       with_unit(100 * number(result, "energy_balance_error"), "%", 3));
   if (!result.value("quasi_static", true))
     return fmt::format("Not quasi-static: the forces that balance differ by {}; load it slower.",
                        with_unit(100 * number(result, "unbalanced_force_ratio"), "%", 3));

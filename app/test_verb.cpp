@@ -137,6 +137,11 @@ void say_what_came_out(const TestDescription& test, const virtual_tests::TestOut
     console.remark(fmt::format(
         "the largest {} came before the end of the post-peak; raise it to see more",
         test.name == "tension" || test.name == "compression" ? "strain (--max-strain)" : "displacement"));
+  if (!found.run->energy_balanced())
+    console.remark(
+        fmt::format("the energy balance is open by {:.1f}% of the work done; lower --time-step-fraction to see "
+                    "whether results change",
+                    100 * found.run->energy_balance_error));
   if (!found.run->quasi_static())
     console.remark(
         fmt::format("not quasi-static: the forces that balance differ by {:.1f}%; lower --velocity (it was "

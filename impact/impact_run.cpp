@@ -14,6 +14,7 @@
 #include "libdem/core/sha256.h"
 #include "libdem/probe/damage.h"
 #include "libdem/run/checkpoint.h"
+#include "libdem/run/watch.h"
 
 namespace impact {
 namespace {
@@ -31,6 +32,9 @@ constexpr double allowed_growth = 0.03;
 /// Energies and damage take a pass over all links, as dear as a step or two: they are read at the first sample
 /// after so many steps.
 constexpr std::int64_t steps_between_stocks = 100;
+
+/// Steps between two looks for nodes that are lost; elements are watched in every step.
+constexpr std::int64_t steps_between_looks_at_nodes = 50;
 
 /// A run under way: the scene, what moves, what is noted down.
 struct Run {
@@ -82,6 +86,19 @@ struct Run {
 };
 
 /// The phases of one step, in order.
+/// Stops a run whose finite elements move by what is no number.
+void watch_nodes(const Run& run) {
+  const FiniteDomain& finite = *run.model.finite;
+  for (std::size_t i = 0; i < finite.mesh.nodes.size(); ++i) {
+    if (finite.nodes.velocity[i].allFinite() && finite.nodes.displacement[i].allFinite()) continue;
+    const Vec3& at = finite.mesh.nodes[i];
+    throw dem::RunError(fmt::format(
+        "the impact diverged by step {}: node {} of the finite elements, at ({:.4g}, {:.4g}, {:.4g}) m, moves "
+        "by what is no number; lower run.time_step_fraction",
+        run.record.steps, i, at.x(), at.y(), at.z()));
+  }
+}
+
 StepTaken advance(Run& run) {
   ImpactModel& model = run.model;
   dem::Particles& particles = model.assembly.particles;
@@ -111,6 +128,8 @@ StepTaken advance(Run& run) {
   book_supports(run.record, model);
   book_step(run.record, taken);
   ++run.record.steps;
+  dem::watch_motion(model.assembly, run.room, taken.elements, model.time_step, run.record.steps, "impact");
+  if (model.finite && run.record.steps % steps_between_looks_at_nodes == 0) watch_nodes(run);
   return taken;
 }
 

@@ -46,6 +46,11 @@ StepRoom::StepRoom(Assembly& assembly)
     : link_blocks(with_its_memory(assembly).links, assembly.particles.count),
       detector(assembly.particles, assembly.links),
       loops(chosen_block_loops()),
+      smallest_radius(assembly.particles.count == 0
+                          ? 0
+                          : *std::min_element(assembly.particles.radius.begin(),
+                                              assembly.particles.radius.begin() +
+                                                  static_cast<std::ptrdiff_t>(assembly.particles.count))),
       next(assembly.particles.kinematics) {}
 
 void settle(Assembly& assembly, const StepRoom& room) { room.link_blocks.give_histories(assembly.links); }

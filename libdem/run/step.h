@@ -35,9 +35,10 @@ struct StepRoom {
   Incidence contact_incidence;
   ContactRows contact_rows;
   ContactDetector detector;
-  BlockLoops loops;         ///< compiled for this machine's instructions
-  double max_speed = 0;     ///< of the last step [m/s]; raise it when velocities are changed between steps
-  Column<Kinematics> next;  ///< what the step under way makes of the kinematics
+  BlockLoops loops;            ///< compiled for this machine's instructions
+  double smallest_radius = 0;  ///< of all elements [m]
+  double max_speed = 0;        ///< of the last step [m/s]; raise it when velocities are changed between steps
+  Column<Kinematics> next;     ///< what the step under way makes of the kinematics
   std::vector<Column<SixRow>> sums;                       ///< a block's forces, one for each thread
   std::vector<std::pair<double, MotionSums>> block_sums;  ///< dissipated by sliding [J]; of the motion
 

@@ -35,6 +35,8 @@ struct StepsTaken {
 
   /// Quasi-static if the two forces agree within 5% up to the peak.
   bool quasi_static() const { return unbalanced_force_ratio <= 0.05; }
+  /// Balanced if the ledger closes within 1%; a sound run's does within a few tenths.
+  bool energy_balanced() const { return energy_balance_error <= 0.01; }
 };
 
 struct TestOutcome {

@@ -7,6 +7,7 @@
 
 #include "libdem/core/error.h"
 #include "libdem/motion/critical_step.h"
+#include "libdem/run/watch.h"
 #include "specimens/virtual_tests/checkpoint_keeper.h"
 #include "specimens/virtual_tests/expected_end.h"
 #include "specimens/virtual_tests/rig_record.h"
@@ -155,6 +156,7 @@ TestOutcome run_rig(Rig& rig, const dem::MaterialCard& card, const QuasiStaticOp
   const auto kept = [&] { return numbers_of(record, rig, particles, room.detector.rebuilds()); };
 
   std::vector<Held> held = held_in(particles);
+  const std::string test = fmt::format("{} test", plan.facts.name);
   record.loop.start = std::chrono::steady_clock::now();
   for (bool over = false; !over;) {
     const Moment moment{record.steps, plan.step.time_step, plan.velocity, plan.rise_time};
@@ -174,6 +176,7 @@ TestOutcome run_rig(Rig& rig, const dem::MaterialCard& card, const QuasiStaticOp
     power += power_of_holding(particles, held) + power_of_loads(particles, loads);
     work += 0.5 * power * plan.step.time_step;
     book_step(record, plan, rig, sums, work, particles);
+    dem::watch_motion(assembly, room, sums, plan.step.time_step, record.steps, test);
     if (window_is_full(record, plan)) {
       close_window(record, plan, assembly, room);
       over = rig.is_over(so_far(record, plan));

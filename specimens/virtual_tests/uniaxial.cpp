@@ -6,6 +6,7 @@
 
 #include "libdem/core/error.h"
 #include "libdem/run/step.h"
+#include "libdem/run/watch.h"
 #include "specimens/virtual_tests/expected_end.h"
 #include "specimens/virtual_tests/setup.h"
 #include "specimens/virtual_tests/uniaxial_checkpoint.h"
@@ -75,11 +76,13 @@ UniaxialResult run_uniaxial(const specimens::Specimen& specimen, const dem::Mate
   if (const auto numbers = keeper.restore(assembly, room)) set_from(record, *numbers, checkpoint.file);
   const auto kept = [&] { return numbers_of(record, room.detector.rebuilds()); };
 
+  const std::string test = fmt::format("{} test", name_of(options.loading));
   record.loop.start = std::chrono::steady_clock::now();
   for (bool over = false; !over;) {
     const dem::StepSums sums =
         dem::advance(assembly, room, plan.step, record.friction.grip(assembly.particles));
     book_step(record, plan, sums, assembly.particles);
+    dem::watch_motion(assembly, room, sums, plan.step.time_step, record.steps, test);
     if (window_is_full(record, plan)) {
       close_window(record, plan, assembly, room);
       over = is_over(record, plan);
