@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "report/html.h"
 
 namespace report {
 namespace {
 
-// The drawing's size and margins, in CSS pixels; chart.js uses the same ones.
+// The drawing's size and margins, in CSS pixels.
 constexpr double kWidth = 860, kHeight = 430;
 constexpr double kLeft = 66, kRight = 18, kTop = 16, kBottom = 52;
 
@@ -71,29 +73,40 @@ std::string area(const Series& series, const Scale& across, const Scale& up) {
   return path.empty() ? "" : path + "Z";
 }
 
-// One marker; the shape goes with the colour, so that series can be told apart without it.
+// One marker; the shape goes with the colour, so that series can be told apart without it. The same shapes are
+// in report/web/src/curves/figure.ts.
 std::string marker(double x, double y, int colour) {
-  constexpr double r = 3.4;
-  switch (colour % 4) {
-    case 0:
-      return fmt::format("M{:.1f} {:.1f}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0Z", x - r, y, fmt::arg("r", r),
-                         fmt::arg("d", 2 * r));
-    case 1:
-      return fmt::format("M{:.1f} {:.1f}h{d}v{d}h-{d}Z", x - 3, y - 3, fmt::arg("d", 6));
-    case 2:
-      return fmt::format("M{:.1f} {:.1f}l4 7h-8Z", x, y - 4.4);
-    default:
-      return fmt::format("M{:.1f} {:.1f}l4 4l-4 4l-4 -4Z", x, y - 4);
-  }
+  static constexpr std::array<std::string_view, 8> shapes = {
+      "m-3.4 0a3.4 3.4 0 1 0 6.8 0a3.4 3.4 0 1 0 -6.8 0Z",
+      "m-3 -3h6v6h-6Z",
+      "m0 -4.4l4 7h-8Z",
+      "m0 -4l4 4l-4 4l-4 -4Z",
+      "m0 4.4l4 -7h-8Z",
+      "m-3.4 -2l1.4 -1.4l2 2l2 -2l1.4 1.4l-2 2l2 2l-1.4 1.4l-2 -2l-2 2l-1.4 -1.4l2 -2Z",
+      "m0 -4l3.9 2.8l-1.5 4.5h-4.8l-1.5 -4.5Z",
+      "m-1.2 -3.6h2.4v2.4h2.4v2.4h-2.4v2.4h-2.4v-2.4h-2.4v-2.4h2.4Z"};
+  return fmt::format("M{:.1f} {:.1f}{}", x, y, shapes[static_cast<std::size_t>(colour % 8)]);
 }
 
-std::string markers(const Series& series, int colour, const Scale& across, const Scale& up) {
+// `at_most` of them, evenly taken; 0 means all.
+std::string markers(const Series& series, int colour, const Scale& across, const Scale& up,
+                    std::size_t at_most = 0) {
   std::string path;
-  for (std::size_t k = 0; k < series.x.size(); ++k)
+  const std::size_t stride = at_most > 0 ? (series.x.size() + at_most - 1) / at_most : 1;
+  for (std::size_t k = 0; k < series.x.size(); k += stride)
     if (usable(series.x[k], across.logarithmic) && usable(series.y[k], up.logarithmic))
       path += marker(across(series.x[k]), up(series.y[k]), colour);
   return path;
 }
+
+// Whether curves carry markers: where several stand side by side and colour alone would tell them apart.
+bool is_marked(const Chart& chart, const Series& one) {
+  const auto is_curve = [](const Series& series) {
+    return !series.thin && (series.kind == Series::Kind::line || series.kind == Series::Kind::dashed);
+  };
+  return is_curve(one) && std::count_if(chart.series.begin(), chart.series.end(), is_curve) > 1;
+}
+constexpr std::size_t kMarks = 9;
 
 const char* class_of(Series::Kind kind) {
   switch (kind) {
@@ -273,6 +286,10 @@ std::string static_svg(const Chart& chart, const std::string& id) {
   const std::vector<int> colours = colours_of(chart);
   for (std::size_t k = 0; k < chart.series.size(); ++k)
     curves += drawn(chart.series[k], colours[k], across, up);
+  for (std::size_t k = 0; k < chart.series.size(); ++k)
+    if (is_marked(chart, chart.series[k]))
+      curves += fmt::format("<path class=\"mark-on c{}\" d=\"{}\"/>", colours[k],
+                            markers(chart.series[k], colours[k], across, up, kMarks));
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{label}\">"
       "<clipPath id=\"{id}\"><rect x=\"{l}\" y=\"{t}\" width=\"{iw}\" height=\"{ih}\"/></clipPath>"
@@ -288,14 +305,18 @@ std::string static_svg(const Chart& chart, const std::string& id) {
       fmt::arg("words", words), fmt::arg("curves", curves));
 }
 
-std::string swatch_svg(const Series& series, int colour) {
+std::string swatch_svg(const Chart& chart, std::size_t index, int colour) {
+  const Series& series = chart.series[index];
   const std::string path = series.kind == Series::Kind::band     ? "M1 1H29V11H1Z"
                            : series.kind == Series::Kind::points ? marker(15, 6, colour)
                                                                  : "M1 6H29";
   return fmt::format(
       "<svg class=\"swatch\" viewBox=\"0 0 30 12\" aria-hidden=\"true\"><path class=\"{}{} c{}\" "
-      "d=\"{}\"/></svg>",
-      class_of(series.kind), series.thin ? " thin" : "", colour, path);
+      "d=\"{}\"/>{}</svg>",
+      class_of(series.kind), series.thin ? " thin" : "", colour, path,
+      is_marked(chart, series)
+          ? fmt::format("<path class=\"mark-on c{}\" d=\"{}\"/>", colour, marker(15, 6, colour))
+          : "");
 }
 
 std::string chart_json(const Chart& chart) {
@@ -310,21 +331,14 @@ std::string chart_json(const Chart& chart) {
                             {"y", rounded(one.y)}};
     if (one.kind == Series::Kind::band) entry["upper"] = rounded(one.upper);
     if (one.thin) entry["thin"] = true;
+    if (is_marked(chart, one)) entry["marked"] = true;
     series.push_back(std::move(entry));
   }
   const nlohmann::json all = {{"title", chart.title},
                               {"x", axis_json(chart.x, range_of(chart, true))},
                               {"y", axis_json(chart.y, range_of(chart, false))},
                               {"series", std::move(series)}};
-  // Within <script> only "</script" and "<!--" would be trouble; without any "<" neither can occur.
-  std::string out;
-  for (const char c : all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
-  }
-  return out;
+  return script_json(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace report

@@ -32,8 +32,8 @@ std::vector<int> colours_of(const Chart& chart);
 /// One <svg> element; `id` must be unique within the page.
 std::string static_svg(const Chart& chart, const std::string& id);
 
-/// A small sample of the series' line or marker, for the legend.
-std::string swatch_svg(const Series& series, int colour);
+/// A small sample of the line or marker of one of the chart's series, for the legend.
+std::string swatch_svg(const Chart& chart, std::size_t series, int colour);
 
 /// The data for the script, as JSON that may stand inside a <script> element. Seven significant digits; NaN
 /// becomes null.

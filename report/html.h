@@ -16,6 +16,10 @@ std::string number_text(double value, int digits = 4);
 /// 0.0123 -> "+1.23 %", with a true minus sign; a dash if not finite.
 std::string signed_percent(double fraction);
 
+/// JSON that may stand inside a <script> element: within one only "</script" and "<!--" would be trouble, and
+/// without any "<" neither can occur.
+std::string script_json(std::string_view json);
+
 /// An exponent as superscript digits: -3 -> "⁻³".
 std::string superscript(int exponent);
 

@@ -12,6 +12,7 @@
 #include "report/assets.h"
 #include "report/chart_svg.h"
 #include "report/html.h"
+#include "report/scene_html.h"
 
 namespace report {
 namespace {
@@ -134,18 +135,6 @@ class Writer {
     html += "</tbody></table></div>\n";
   }
 
-  // What it shows in words: all that a reader without a picture has.
-  void operator()(const Scene& scene) {
-    html += fmt::format(
-        "<figure class=\"scene\"><div class=\"head\"><h3>{}</h3></div>\n<p>{} elements at {} moments, the "
-        "last: {}. "
-        "{} links are broken by then.</p>\n",
-        escape(scene.title), scene.elements(), scene.frames.size(), escape(scene.frames.back().label),
-        scene.broken_links.size());
-    if (!scene.caption.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", escape(scene.caption));
-    html += "</figure>\n";
-  }
-
   void operator()(const Chart& chart) {
     check(chart);
     html +=
@@ -153,16 +142,19 @@ class Writer {
                     escape(chart.title));
     const std::vector<int> colours = colours_of(chart);
     for (std::size_t k = 0; k < chart.series.size(); ++k)
-      html +=
-          fmt::format("<li>{}{}</li>\n", swatch_svg(chart.series[k], colours[k]), escape(chart.series[k].name));
+      html += fmt::format("<li>{}{}</li>\n", swatch_svg(chart, k, colours[k]), escape(chart.series[k].name));
     html += fmt::format("</ul>\n<div class=\"canvas\">{}</div>\n",
                         static_svg(chart, fmt::format("clip{}", ++charts)));
     if (!chart.caption.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", escape(chart.caption));
     html += fmt::format("<script type=\"application/json\">{}</script></figure>\n", chart_json(chart));
   }
 
- private:
-  int charts = 0;
+  void operator()(const Scene& scene) {
+    html += scene_html(scene);
+    ++scenes;
+  }
+
+  int charts = 0, scenes = 0;
 };
 
 std::string verdict_html(const Page& page) {
@@ -191,18 +183,26 @@ std::string to_html(const Page& page) {
     body(KeyValues{page.provenance});
     body.html += "</footer>\n";
   }
-  // The policy keeps the promise that the page loads nothing, whatever its text may hold.
-  return fmt::format(
+  // The policy keeps the promise that the page loads nothing, whatever its text may hold; images are those that
+  // the page makes itself when a picture is saved.
+  std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-      "script-src 'unsafe-inline'; form-action 'none'; base-uri 'none'\">\n"
+      "script-src 'unsafe-inline'; img-src data: blob:; form-action 'none'; base-uri 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light "
       "dark\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n"
-      "<header>\n<h1>{}</h1>\n{}{}</header>\n{}</main>\n<script>\n{}</script>\n</body>\n</html>\n",
-      escape(page.title), assets::style, escape(page.title),
+      "<header>\n<h1>{}</h1>\n{}{}</header>\n{}</main>\n",
+      escape(page.title), assets::style(), escape(page.title),
       page.subtitle.empty() ? "" : fmt::format("<p class=\"subtitle\">{}</p>\n", escape(page.subtitle)),
-      verdict_html(page), body.html, assets::script);
+      verdict_html(page), body.html);
+  const auto add_script = [&html](std::string_view script) {
+    html.append("<script>\n").append(script).append("</script>\n");
+  };
+  add_script(assets::page());
+  if (body.charts > 0) add_script(assets::curves());
+  if (body.scenes > 0) add_script(assets::space());
+  return html + "</body>\n</html>\n";
 }
 
 void write_page(const std::filesystem::path& file, const Page& page) {

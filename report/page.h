@@ -83,6 +83,7 @@ struct Chart {
   std::string caption = "";  ///< one or two sentences below
 };
 
+/// A Scene becomes a view that turns: coloured by a field, cut, magnified, through time; see report/scene.h.
 using Block = std::variant<Text, List, KeyValues, Table, Targets, Chart, Scene>;
 
 struct Section {
@@ -103,7 +104,8 @@ struct Page {
 };
 
 /// The whole page. All text is escaped; the page loads nothing from anywhere. Throws std::invalid_argument,
-/// naming the chart and the series, if the lengths of a series do not agree.
+/// naming the chart and the series, if the lengths of a series do not agree, or naming the scene, if something
+/// in it does not fit together.
 std::string to_html(const Page& page);
 
 /// Writes the page whole or not at all; its folder must exist. Throws dem::RunError if it cannot.

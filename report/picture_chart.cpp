@@ -32,8 +32,9 @@ std::string style() {
       ".grid{fill:none;stroke:#e6e8ea;stroke-width:1}.zero{fill:none;stroke:#c9ced3;stroke-width:1.5}"
       ".frame{fill:none;stroke:#5b646e;stroke-width:1}";
   for (int c = 0; c < 8; ++c)
-    text += fmt::format(".line.c{0},.dashed.c{0},.points.c{0},.band.c{0}{{stroke:{1}}}.band.c{0}{{fill:{1}}}",
-                        c, series_colour(c));
+    text += fmt::format(
+        ".line.c{0},.dashed.c{0},.points.c{0},.band.c{0}{{stroke:{1}}}.band.c{0},.mark-on.c{0}{{fill:{1}}}", c,
+        series_colour(c));
   return text;
 }
 
@@ -61,7 +62,7 @@ std::string chart_picture(const Chart& chart, double width) {
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
     const double wide = 38 + width_of(chart.series[k].name) + 22;
     if (x > 20 && x + wide > drawing_width) x = 20, y += legend_row;
-    legend += placed(swatch_svg(chart.series[k], colours[k]), x, y - 10, 30, 12) +
+    legend += placed(swatch_svg(chart, k, colours[k]), x, y - 10, 30, 12) +
               fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 38, y, escape(chart.series[k].name));
     x += wide;
   }
