@@ -7,6 +7,7 @@
 #include "calibrate/pipeline.h"
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "tests/regression/kept.h"
 
 namespace {
 
@@ -36,6 +37,10 @@ TEST(PaperSlab, TargetsAreMetOnFittedAndUnseenSpecimens) {
   ASSERT_EQ(result.identifiability.parameters.size(), 2u);
   EXPECT_TRUE(result.identifiability.parameters[0].determined);
   EXPECT_GT(result.identifiability.parameters[1].relative_uncertainty, 0.2);
+  for (const auto& [figure, value] :
+       {std::pair("alpha", result.card.alpha), std::pair("beta", result.card.beta),
+        std::pair("gamma", result.card.gamma), std::pair("T", result.card.tensile_strength)})
+    EXPECT_TRUE(regression::is_kept("paper-slab", figure, value));
   // Table 2 has T = 3.1 MPa at zeta 5 for "about 3 MPa" in tension.
   EXPECT_NEAR(result.card.tensile_strength, 3.05e6, 0.15e6);
 }
