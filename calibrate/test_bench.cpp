@@ -7,6 +7,7 @@
 #include <functional>
 #include <tuple>
 
+#include "libdem/core/interrupt.h"
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
 #include "specimens/virtual_tests/catalogue.h"
@@ -157,9 +158,11 @@ RoundResult TestBench::run(const dem::MaterialCard& card, Round round) {
 
   bool fresh = false;
   const auto count = static_cast<std::ptrdiff_t>(tasks.size());
+  const dem::StopRequest* const stop = dem::stop_request();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(|| : fresh)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     Task& task = tasks[static_cast<std::size_t>(k)];
+    const dem::StopScope scope(stop);
     try {
       if (const TestSummary* known = journal.find(task.key)) {
         task.summary = *known;

@@ -95,7 +95,8 @@ class Run {
   double done_seconds = 0;
   std::exception_ptr fatal;
 
-  std::vector<std::atomic<float>> parts;  // of each job that is done, for the progress
+  const dem::StopRequest* const stop = dem::stop_request();  // of the thread that called
+  std::vector<std::atomic<float>> parts;                     // of each job that is done, for the progress
   std::atomic<bool> stopping{false};
   double total_seconds = 0;
 };
@@ -146,6 +147,7 @@ dem::Progress Run::where_it_stands() {
 }
 
 void Run::work() {
+  const dem::StopScope scope(stop);
   omp_set_num_threads(1);  // of this thread: the cores are for tasks
   std::unique_lock lock(mutex);
   while (!queue.all_done() && !must_stop()) {

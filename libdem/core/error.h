@@ -11,7 +11,18 @@ namespace dem {
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& where, const std::string& what_is_wrong, const std::string& remedy)
-      : std::runtime_error(where + ": " + what_is_wrong + (remedy.empty() ? "" : "; " + remedy)) {}
+      : std::runtime_error(where + ": " + what_is_wrong + (remedy.empty() ? "" : "; " + remedy)),
+        place(where),
+        wrong(what_is_wrong),
+        allowed(remedy) {}
+
+  /// The three parts, as they were given.
+  const std::string& where() const { return place; }
+  const std::string& what_is_wrong() const { return wrong; }
+  const std::string& remedy() const { return allowed; }
+
+ private:
+  std::string place, wrong, allowed;
 };
 
 /// The run failed although its input was acceptable: it diverged, or a file could not be written (exit code 1).

@@ -25,7 +25,8 @@ std::recursive_mutex& library_mutex() {
 class Lock {
  public:
   Lock() : guard(library_mutex()) {
-    static const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    // Where the library is thread safe, each thread has error stacks of its own.
+    static thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     static_cast<void>(silenced);
   }
 

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/core/interrupt.h"
 #include "libdem/core/parallel.h"
 #include "libdem/core/random.h"
 #include "libdem/core/sha256.h"
@@ -96,4 +98,39 @@ TEST(Parallel, CallsEachOnceAndThrowsWhatTheFirstThrew) {
     EXPECT_STREQ(error.what(), "7");
   }
   EXPECT_EQ(calls, std::vector<int>(50, 1)) << "the others go on";
+}
+
+TEST(Interrupt, ARequestReachesItsOwnJobAndNoOther) {
+  dem::StopRequest request{true};
+  EXPECT_FALSE(dem::interrupt_requested());
+  {
+    const dem::StopScope scope(&request);
+    EXPECT_TRUE(dem::interrupt_requested());
+    bool elsewhere = true;
+    std::thread([&] { elsewhere = dem::interrupt_requested(); }).join();
+    EXPECT_FALSE(elsewhere) << "a thread that nobody told";
+    std::vector<int> heard(20, 0);
+    dem::for_each_in_parallel(20, 3, [&](std::size_t k) { heard[k] = dem::interrupt_requested() ? 1 : 0; });
+    EXPECT_EQ(heard, std::vector<int>(20, 1)) << "work side by side belongs to the job";
+    {
+      const dem::StopScope inner(nullptr);
+      EXPECT_FALSE(dem::interrupt_requested());
+    }
+    EXPECT_TRUE(dem::interrupt_requested());
+    request = false;
+    EXPECT_FALSE(dem::interrupt_requested());
+    dem::set_interrupt(true);
+    EXPECT_TRUE(dem::interrupt_requested()) << "a signal stops every job";
+    dem::set_interrupt(false);
+  }
+  request = true;
+  EXPECT_FALSE(dem::interrupt_requested());
+}
+
+TEST(Errors, KeepTheirParts) {
+  const dem::InputError error("card.toml: nu", "is 0.4", "allowed: below 0.27");
+  EXPECT_STREQ(error.what(), "card.toml: nu: is 0.4; allowed: below 0.27");
+  EXPECT_EQ(error.where(), "card.toml: nu");
+  EXPECT_EQ(error.what_is_wrong(), "is 0.4");
+  EXPECT_EQ(error.remedy(), "allowed: below 0.27");
 }
