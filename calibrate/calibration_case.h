@@ -9,6 +9,7 @@
 
 #include "calibrate/lab/series.h"
 #include "calibrate/target.h"
+#include "libdem/config/toml_reader.h"
 #include "libdem/core/vector.h"
 #include "libdem/drive/platens.h"
 #include "libdem/material/material_card.h"
@@ -66,5 +67,7 @@ struct CalibrationCase {
 
 /// Reads case.toml and the curves that it names (docs/cases.md lists the keys). Throws InputError.
 CalibrationCase read_case(const std::filesystem::path& file);
+/// The same of a table from elsewhere; paths in it are relative to the folder of the file that it names.
+CalibrationCase case_of(const dem::TomlTable& root);
 
 }  // namespace calibrate

@@ -229,12 +229,17 @@ const Target* CalibrationCase::target(Quantity quantity) const {
 }
 
 CalibrationCase read_case(const fs::path& file) {
-  const TomlTable root = TomlTable::read(file);
+  CalibrationCase result = case_of(TomlTable::read(file));
+  result.inputs.insert(result.inputs.begin(), file);
+  return result;
+}
+
+CalibrationCase case_of(const TomlTable& root) {
+  const fs::path file = root.file();
   root.allow_only({"name", "concrete", "specimen", "targets", "tension", "compression", "code", "fixed", "test",
                    "start", "damping", "notes"});
   CalibrationCase result;
   result.file = file;
-  result.inputs.push_back(file);
   const fs::path base = file.parent_path();
   result.name = root.text("name", file.stem().string());
   result.concrete = root.text("concrete", "");

@@ -172,11 +172,16 @@ void read_run(const TomlTable& run, Scene& scene) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::optional<std::filesystem::path>& card) {
-  const TomlTable root = TomlTable::read(file);
+  Scene scene = scene_of(TomlTable::read(file), card);
+  scene.inputs.insert(scene.inputs.begin(), file);
+  return scene;
+}
+
+Scene scene_of(const TomlTable& root, const std::optional<std::filesystem::path>& card) {
+  const std::filesystem::path file = root.file();
   root.allow_only({"title", "model", "card", "structure", "zone", "mesh", "coupling", "support", "impactor",
                    "probe", "run", "output"});
   Scene scene;
-  scene.inputs.push_back(file);
   scene.title = root.text("title", file.stem().string());
   scene.model = root.choice("model", {"de", "coupled"}) == "de" ? Model::de : Model::coupled;
   read_card_of(root, card, scene);

@@ -51,12 +51,17 @@ std::vector<std::string> one_or_more_texts(const dem::TomlTable& table, const ch
 }
 
 Study read_study(const std::filesystem::path& file) {
-  const dem::TomlTable root = dem::TomlTable::read(file);
+  Study study = study_of(dem::TomlTable::read(file));
+  study.inputs.insert(study.inputs.begin(), file);
+  return study;
+}
+
+Study study_of(const dem::TomlTable& root) {
+  const std::filesystem::path file = root.file();
   root.allow_only({"name", "notes", "card", "cards", "specimen", "vary", "design", "points", "sensitivity",
                    "tests", "test"});
   Study study;
   study.file = file;
-  study.inputs.push_back(file);
   study.name = root.text("name", file.stem().string());
   if (study.name.empty()) root.fail("name", "is empty", "give the study a name, or leave the key out");
   if (root.has("notes")) study.notes = root.texts("notes");

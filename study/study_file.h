@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libdem/config/toml_reader.h"
 #include "libdem/core/units.h"
 #include "libdem/material/material_card.h"
 #include "specimens/packing.h"
@@ -69,5 +70,7 @@ struct Study {
 /// Reads study.toml (docs/studies.md lists the keys), its cards, and the specimens that it takes from files.
 /// Throws InputError.
 Study read_study(const std::filesystem::path& file);
+/// The same of a table from elsewhere; paths in it are relative to the folder of the file that it names.
+Study study_of(const dem::TomlTable& root);
 
 }  // namespace study
