@@ -128,6 +128,8 @@ TEST(IncludeDirection, RefusesWhatItShould) {
   EXPECT_NE(complaint("report/page.cpp", "libdem/material/material_card.h"), "");
   EXPECT_NE(complaint("study/runner.cpp", "app/main.h"), "");
   EXPECT_NE(complaint("study/statistics/summary.h", "study/rows.h"), "");
+  EXPECT_NE(complaint("study/runner.cpp", "python/job.h"), "");
+  EXPECT_NE(complaint("app/main.cpp", "python/job.h"), "");
 }
 
 TEST(IncludeDirection, AllowsWhatItShould) {
@@ -138,4 +140,5 @@ TEST(IncludeDirection, AllowsWhatItShould) {
   EXPECT_EQ(complaint("report/page.cpp", "libdem/core/atomic_file.h"), "");
   EXPECT_EQ(complaint("app/verb_report.cpp", "report/page.h"), "");
   EXPECT_EQ(complaint("libdem/core/units.cpp", "fmt/format.h"), "");
+  EXPECT_EQ(complaint("python/study.cpp", "study/runner.h"), "");
 }
