@@ -7,6 +7,7 @@
 #include <functional>
 #include <tuple>
 
+#include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
@@ -37,10 +38,17 @@ std::vector<double> pack(const TestSummary& s) {
   return values;
 }
 
+/// Whether its counts are counts: a damaged file may hold any number there.
+bool can_be_unpacked(const std::vector<double>& v) {
+  constexpr double most_steps = 1e15;
+  return v.size() >= scalars && v[9] >= 0 && v[9] <= most_steps && v[10] >= 0 &&
+         v[10] <= static_cast<double>(v.size() - scalars);
+}
+
 TestSummary unpack(const std::vector<double>& v) {
   TestSummary s{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8] != 0, static_cast<std::int64_t>(v[9]),
                 {},   {}};
-  const std::size_t measured = std::min(static_cast<std::size_t>(v[10]), v.size() - scalars);
+  const auto measured = static_cast<std::size_t>(v[10]);
   const auto first = v.begin() + static_cast<std::ptrdiff_t>(scalars);
   s.measured.assign(first, first + static_cast<std::ptrdiff_t>(measured));
   for (std::size_t k = scalars + measured; k + columns <= v.size(); k += columns)
@@ -65,7 +73,10 @@ TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::mo
   if (!in.has("tests")) return;
   for (const std::string& name : in.names_in("tests")) {
     const std::vector<double> values = in.read<double>("tests/" + name);
-    if (values.size() >= scalars) summaries[name] = unpack(values);
+    if (!can_be_unpacked(values))
+      throw dem::InputError(file.string(), fmt::format("is damaged: the test {} is not whole", name),
+                            "start anew without --resume");
+    summaries[name] = unpack(values);
   }
 }
 

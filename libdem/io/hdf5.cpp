@@ -338,6 +338,8 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
     H5free_memory(text);
     return copy;
   }
+  constexpr std::size_t most = 1 << 20;  // names and origins; a damaged file may claim anything
+  if (H5Tget_size(type) > most) self->wrong(what, "is longer than any text that Spall writes", make_again);
   std::string text(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, text.data()) < 0) self->wrong(what, "cannot be read", make_again);
   text.resize(std::min(text.find('\0'), text.size()));
