@@ -10,6 +10,8 @@ import type { SceneData } from './unpack';
 
 /** What a picture may take while it moves [ms]; with more, there is less detail. */
 const BUDGET = 33;
+/** Fewer elements are always drawn whole. */
+const FEWEST = 3000;
 /** After this long without a change everything is drawn again [ms]. */
 const REST = 160;
 
@@ -41,6 +43,8 @@ export class View {
   private wanted = 0;
   private restTimer = 0;
   private movingDetail = 1;
+  /** The smallest share that is drawn while it moves. */
+  private readonly least: number;
   private lastMoving = 0;
 
   constructor(private readonly scene: SceneData, readonly state: State, private readonly colours: () => Colours) {
@@ -49,6 +53,7 @@ export class View {
     this.renderer.localClippingEnabled = true;
     this.renderer.outputColorSpace = three.LinearSRGBColorSpace;
     three.ColorManagement.enabled = false;
+    this.least = Math.min(1, Math.max(0.03, FEWEST / scene.header.elements));
     this.box = extent(scene);
     this.spheres = new Spheres(scene);
     this.links = new BrokenLinks(scene);
@@ -205,10 +210,10 @@ export class View {
       // Time from picture to picture, while they follow each other, says what the machine can do.
       const since = now - this.lastMoving;
       if (since < 1000) {
-        if (since > 1.3 * BUDGET) this.movingDetail = Math.max(0.02, this.movingDetail * Math.max(0.5, BUDGET / since));
+        if (since > 1.3 * BUDGET) this.movingDetail = Math.max(this.least, this.movingDetail * Math.max(0.5, BUDGET / since));
         else if (since < 0.7 * BUDGET) this.movingDetail = Math.min(1, this.movingDetail * 1.15);
       } else if (Number.isFinite(this.wholeTime)) {
-        this.movingDetail = this.wholeTime < BUDGET ? 1 : Math.min(this.movingDetail, Math.max(0.02, BUDGET / this.wholeTime));
+        this.movingDetail = this.wholeTime < BUDGET ? 1 : Math.min(this.movingDetail, Math.max(this.least, BUDGET / this.wholeTime));
       }
       this.lastMoving = now;
       this.draw(this.movingDetail);
