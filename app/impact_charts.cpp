@@ -11,7 +11,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// The columns of a run by name.
+/// The columns of a run by name, in the units that read_columns gives them: mm, kN, MPa.
 struct Histories {
   const std::vector<Column>& columns;
   Values time;  ///< [ms]
@@ -72,13 +72,13 @@ std::optional<report::Chart> displacement_chart(const Histories& histories) {
         reach = largest(*values), most = axis;
   report::Chart chart = chart_of(fmt::format("Displacement along {}", most), "displacement", "mm");
   for (const std::string& probe : probes)
-    if (const Values* values = along(probe, most)) add(chart, histories, probe, scaled(*values, 1e3));
+    if (const Values* values = along(probe, most)) add(chart, histories, probe, *values);
   chart.caption = "Of the probes, along the axis along which they move most; curves.csv has all three.";
   return chart;
 }
 
 std::optional<report::Chart> vector_chart(const Histories& histories, const std::string& name,
-                                          report::Chart chart, double factor) {
+                                          report::Chart chart) {
   double most = 0;
   for (const char axis : axes)
     if (const Values* values = histories.find(name + "_" + axis)) most = std::max(most, largest(*values));
@@ -86,7 +86,7 @@ std::optional<report::Chart> vector_chart(const Histories& histories, const std:
     const Values* values = histories.find(name + "_" + axis);
     // A component that is nothing beside the others is left out.
     if (values != nullptr && largest(*values) > 1e-3 * most)
-      add(chart, histories, fmt::format("along {}", axis), scaled(*values, factor));
+      add(chart, histories, fmt::format("along {}", axis), *values);
   }
   if (chart.series.empty()) return std::nullopt;
   return chart;
@@ -141,10 +141,9 @@ std::vector<report::Chart> impact_charts(const std::vector<Column>& columns) {
   keep(displacement_chart(histories));
   report::Chart force = chart_of("Contact force", "force", "kN");
   force.caption = "Of the structure on the impactor, means between two samples.";
-  keep(vector_chart(histories, "force", std::move(force), 1e-3));
-  keep(vector_chart(histories, "impulse", chart_of("Impulse on the impactor", "impulse", "N s"), 1));
-  keep(
-      vector_chart(histories, "impactor_velocity", chart_of("Velocity of the impactor", "velocity", "m/s"), 1));
+  keep(vector_chart(histories, "force", std::move(force)));
+  keep(vector_chart(histories, "impulse", chart_of("Impulse on the impactor", "impulse", "N s")));
+  keep(vector_chart(histories, "impactor_velocity", chart_of("Velocity of the impactor", "velocity", "m/s")));
   keep(energy_chart(histories));
   if (const Values* broken = histories.find("broken_links"); broken != nullptr && largest(*broken) > 0) {
     report::Chart chart = chart_of("Broken links", "broken links", "");

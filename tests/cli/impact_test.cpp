@@ -122,6 +122,27 @@ TEST_F(Impact, LeavesItsKeysHistoriesFramesAndPage) {
   EXPECT_THAT(read("out/report.html"), AllOf(HasSubstr("Contact force"), HasSubstr("modified NDRC"),
                                              HasSubstr("Displacement along z"), HasSubstr("<svg")));
   EXPECT_EQ(spall({"report", "out"}).code, 0);
+  // What the page draws is what the result says, in the unit on its axis.
+  const auto largest = [&](const std::string& title, const std::string& unit, const std::string& named) {
+    const std::string page = read("out/report.html"), mark = "<script type=\"application/json\"";
+    for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos;) {
+      at = page.find('>', at) + 1;
+      const auto chart = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+      if (chart["title"] != title) continue;
+      EXPECT_EQ(chart["y"]["unit"], unit);
+      double most = 0;
+      for (const auto& line : chart["series"])
+        if (line["name"] == named)
+          for (const auto& y : line["y"])
+            if (y.is_number()) most = std::max(most, std::abs(y.get<double>()));
+      return most;
+    }
+    return -1.0;
+  };
+  EXPECT_NEAR(largest("Displacement along z", "mm", "under") /
+                  (1e3 * result["max_displacement"]["under"].get<double>()),
+              1, 0.1);
+  EXPECT_NEAR(largest("Contact force", "kN", "along z") / (1e-3 * result["peak_force"].get<double>()), 1, 0.1);
 }
 
 TEST_F(Impact, WrongInputsAreRefusedAndNothingIsWritten) {
