@@ -49,8 +49,9 @@ void write_pictures(const CalibrateOptions& options, const calibrate::Calibratio
     virtual_tests::write_frames(folder.file("frames") / name, filmed.specimen, test->fields.film, test->curve);
 }
 
-calibrate::CalibrationResult run(const CalibrateOptions& options, const calibrate::CalibrationCase& wanted,
-                                 calibrate::TestJournal& journal, const RunFolder& folder, Console& console) {
+calibrate::CalibrationResult run(const CalibrateOptions& options, const Invocation& invocation,
+                                 const calibrate::CalibrationCase& wanted, calibrate::TestJournal& journal,
+                                 const RunFolder& folder, Console& console) {
   try {
     calibrate::CalibrationResult found =
         calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
@@ -58,9 +59,9 @@ calibrate::CalibrationResult run(const CalibrateOptions& options, const calibrat
     return found;
   } catch (const dem::Interrupted& stop) {
     journal.save();
-    throw dem::Interrupted(fmt::format(
-        "{}; {} virtual tests are kept in {}/checkpoint.h5: go on with spall calibrate {} -o {} --resume",
-        stop.what(), journal.size(), options.output, options.file, options.output));
+    throw dem::Interrupted(fmt::format("{}; {} virtual tests are kept in {}/checkpoint.h5: go on with {}",
+                                       stop.what(), journal.size(), options.output,
+                                       command_to_go_on(invocation)));
   }
 }
 
@@ -76,7 +77,7 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
                                folder.file("checkpoint.h5").string()));
 
-  const calibrate::CalibrationResult found = run(options, wanted, journal, folder, console);
+  const calibrate::CalibrationResult found = run(options, invocation, wanted, journal, folder, console);
   const nlohmann::ordered_json result = result_of(wanted, found);
   dem::write_file_atomically(folder.file("card.toml"), dem::to_toml(found.card));
   dem::write_file_atomically(folder.file("curves.csv"), curves_csv(wanted, found));

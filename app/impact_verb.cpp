@@ -16,6 +16,7 @@
 #include "impact/scene_file.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/run/checkpoint_interval.h"
 
 namespace app {
 namespace {
@@ -36,13 +37,21 @@ impact::ImpactResult run_or_stop(const ImpactOptions& options, const Invocation&
   // Made with the first frame: a scene that is refused before leaves nothing behind.
   std::optional<impact::FrameWriter> frames;
   const impact::FrameCallback picture = [&](const impact::Frame& frame) {
-    if (!frames) frames.emplace(scene, folder.file("frames"), goes_on);
+    if (!frames) {
+      // A former run's state does not go with this one's pictures.
+      std::error_code ignored;
+      if (!goes_on) std::filesystem::remove(checkpoint, ignored);
+      frames.emplace(scene, folder.file("frames"), goes_on);
+    }
     frames->write(frame);
   };
   try {
-    return impact::run_impact(scene, options.common.thread_count(), console.progress(),
-                              scene.frames > 0 ? picture : impact::FrameCallback(),
-                              {.file = checkpoint, .resume = options.resume});
+    return impact::run_impact(
+        scene, options.common.thread_count(), console.progress(),
+        scene.frames > 0 ? picture : impact::FrameCallback(),
+        {.file = checkpoint,
+         .resume = options.resume,
+         .interval = dem::seconds_between_checkpoints(impact::ImpactCheckpoint().interval)});
   } catch (const dem::Interrupted& stop) {
     // While the structure is packed there is nothing to keep yet.
     if (!std::filesystem::exists(checkpoint)) throw;

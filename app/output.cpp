@@ -8,6 +8,7 @@
 #include "app/machine.h"
 #include "app/version.h"
 #include "libdem/core/atomic_file.h"
+#include "libdem/core/scratch_files.h"
 #include "libdem/core/sha256.h"
 
 namespace app {
@@ -45,6 +46,7 @@ void remove_if_empty(const std::filesystem::path& folder) {
 RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)
     : folder(where), invocation(call), threads(common.thread_count()) {
   dem::require_writable_folder(folder);
+  dem::sweep_scratch(folder);
 }
 
 void RunFolder::add_input(const std::filesystem::path& input) {

@@ -13,6 +13,7 @@
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
 #include "libdem/core/units.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "specimens/specimen_file.h"
 #include "specimens/virtual_tests/catalogue.h"
 #include "specimens/virtual_tests/fields.h"
@@ -111,7 +112,10 @@ virtual_tests::TestOutcome run_or_stop(const TestCommand& command, const Invocat
   try {
     return virtual_tests::run_test(
         inputs.specimen, inputs.card, options, console.progress(),
-        {.file = checkpoint, .resume = command.resume, .pictures = command.pictures});
+        {.file = checkpoint,
+         .seconds_between = dem::seconds_between_checkpoints(virtual_tests::CheckpointPolicy().seconds_between),
+         .resume = command.resume,
+         .pictures = command.pictures});
   } catch (const dem::Interrupted& stop) {
     throw dem::Interrupted(fmt::format("{}; its state is kept in {}: go on with {}", stop.what(),
                                        checkpoint.string(), command_to_go_on(invocation)));

@@ -17,7 +17,7 @@ namespace calibrate {
 namespace {
 
 constexpr const char* journal_format = "spall-calibration-journal";
-constexpr int journal_version = 2;
+constexpr int journal_version = 3;
 constexpr std::size_t scalars = 11, columns = 6;
 
 std::vector<double> pack(const TestSummary& s) {
@@ -36,6 +36,12 @@ std::vector<double> pack(const TestSummary& s) {
   for (const virtual_tests::CurvePoint& p : s.curve)
     values.insert(values.end(), {p.strain, p.stress, p.strain_axial, p.strain_lateral, p.broken, p.unbalanced});
   return values;
+}
+
+/// A test's part of the SHA-256 that a journal names of its content.
+void hash_in(dem::Sha256& hash, const std::string& name, const std::vector<double>& values) {
+  const std::uint64_t count = values.size();
+  hash.add(name.data(), name.size()).add(&count, sizeof count).add(values.data(), count * sizeof(double));
 }
 
 /// Whether its counts are counts: a damaged file may hold any number there.
@@ -70,14 +76,25 @@ TestSummary summarise(virtual_tests::UniaxialResult result) {
 TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::move(path)) {
   if (!resume || !std::filesystem::exists(file)) return;
   const dem::Hdf5File in = dem::open_spall_file(file, journal_format, journal_version);
-  if (!in.has("tests")) return;
-  for (const std::string& name : in.names_in("tests")) {
+  // Earlier versions name no SHA-256 of their content.
+  if (const auto version = in.number_attribute<std::int32_t>("/", "format_version"); version < journal_version)
+    throw dem::InputError(file.string(),
+                          fmt::format("has {} format version {}, this Spall goes on from version {} alone",
+                                      journal_format, version, journal_version),
+                          "start anew without --resume");
+  dem::Sha256 hash;
+  const std::vector<std::string> names = in.has("tests") ? in.names_in("tests") : std::vector<std::string>();
+  for (const std::string& name : names) {
     const std::vector<double> values = in.read<double>("tests/" + name);
+    hash_in(hash, name, values);
     if (!can_be_unpacked(values))
       throw dem::InputError(file.string(), fmt::format("is damaged: the test {} is not whole", name),
                             "start anew without --resume");
     summaries[name] = unpack(values);
   }
+  if (hash.hex() != in.text_attribute("/", "sha256"))
+    throw dem::InputError(file.string(), "is damaged: its content does not have the SHA-256 that it names",
+                          "start anew without --resume");
 }
 
 const TestSummary* TestJournal::find(const std::string& key) const {
@@ -90,7 +107,13 @@ void TestJournal::add(const std::string& key, TestSummary summary) { summaries[k
 void TestJournal::save() const {
   if (file.empty()) return;
   dem::create_spall_file(file, journal_format, journal_version, [&](dem::Hdf5File& out) {
-    for (const auto& [name, summary] : summaries) out.write("tests/" + name, pack(summary));
+    dem::Sha256 hash;
+    for (const auto& [name, summary] : summaries) {
+      const std::vector<double> values = pack(summary);
+      out.write("tests/" + name, values);
+      hash_in(hash, name, values);
+    }
+    out.set_attribute("/", "sha256", hash.hex());
   });
 }
 

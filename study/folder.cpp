@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,6 +12,7 @@
 
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/core/scratch_files.h"
 
 namespace study {
 namespace {
@@ -46,9 +46,10 @@ void StudyFolder::make() const {
 
 void StudyFolder::require_space() const {
   // As much as a result may be: a nearly full disk still takes a few bytes.
-  dem::write_file_atomically(root / "tasks" / fmt::format(".probe-{}", ::getpid()), std::string(1 << 18, ' '));
+  const fs::path probe = dem::scratch_path(root / "tasks" / "space");
+  dem::write_file_atomically(probe, std::string(1 << 18, ' '));
   std::error_code ignored;
-  fs::remove(root / "tasks" / fmt::format(".probe-{}", ::getpid()), ignored);
+  fs::remove(probe, ignored);
 }
 
 bool StudyFolder::concerns(const std::string& message) const {
@@ -58,8 +59,10 @@ bool StudyFolder::concerns(const std::string& message) const {
 }
 
 void StudyFolder::sweep(Claims& claims) const {
+  dem::sweep_scratch(root);
   std::error_code error;
-  for (const char* part : parts)
+  for (const char* part : parts) {
+    dem::sweep_scratch(root / part);
     for (fs::directory_iterator entry(root / part, error), end; !error && entry != end;
          entry.increment(error)) {
       const std::string name = entry->path().filename().string();
@@ -70,6 +73,7 @@ void StudyFolder::sweep(Claims& claims) const {
       fs::remove(entry->path(), ignored);
       claims.release(key);
     }
+  }
 }
 
 bool StudyFolder::has_result(const std::string& key) const {
@@ -125,8 +129,7 @@ std::optional<TaskTime> StudyFolder::read_time(const std::string& key) const {
 }
 
 void StudyFolder::write_time(const std::string& key, const TaskTime& time) const {
-  // Not flushed to the disk: it may be lost with the power, at no loss to the study.
-  std::ofstream(time_file(key), std::ios::binary | std::ios::trunc) << to_json(time).dump() << "\n";
+  dem::write_file_atomically(time_file(key), to_json(time).dump() + "\n");
 }
 
 }  // namespace study

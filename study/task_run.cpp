@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "libdem/core/error.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "specimens/virtual_tests/catalogue.h"
 
 namespace study {
@@ -21,7 +22,7 @@ std::string host_name() {
 virtual_tests::TestOutcome go_on_or_anew(const specimens::Specimen& specimen, const dem::MaterialCard& card,
                                          const virtual_tests::TestOptions& options, const fs::path& checkpoint,
                                          const dem::ProgressCallback& progress) {
-  constexpr double seconds_between = 120;
+  const double seconds_between = dem::seconds_between_checkpoints(120);
   if (fs::exists(checkpoint)) {
     try {
       return virtual_tests::run_test(specimen, card, options, progress,

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "libdem/core/error.h"
+#include "libdem/core/scratch_files.h"
 
 namespace dem {
 namespace {
@@ -25,10 +26,6 @@ void flush_to_disk(const std::filesystem::path& path, int flags) {
   if (result != 0) fail(path, "flush to the disk");
 }
 
-std::filesystem::path aside(const std::filesystem::path& file) {
-  return file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), ::getpid());
-}
-
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file) {
   flush_to_disk(part, O_RDONLY);
   if (::rename(part.c_str(), file.c_str()) != 0) fail(file, "rename into place");
@@ -42,7 +39,7 @@ void require_writable_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error)
     throw RunError(fmt::format("{}: the folder cannot be made ({})", folder.string(), error.message()));
-  const std::filesystem::path probe = folder / fmt::format(".spall-probe.{}", ::getpid());
+  const std::filesystem::path probe = scratch_path(folder / "probe");
   const int descriptor = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
   if (descriptor < 0) fail(folder, "write in this folder");
   ::close(descriptor);
@@ -70,7 +67,7 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 
 void write_file_atomically(const std::filesystem::path& file,
                            const std::function<void(const std::filesystem::path&)>& write) {
-  const std::filesystem::path part = aside(file);
+  const std::filesystem::path part = scratch_path(file);
   try {
     write(part);
     put_in_place(part, file);

@@ -9,6 +9,7 @@
 
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/core/scratch_files.h"
 
 namespace dem {
 namespace {
@@ -56,6 +57,7 @@ std::vector<std::pair<std::filesystem::path, FrameMoment>> read_frame_series(
 FrameSeries::FrameSeries(std::filesystem::path where, std::vector<std::string> which, bool resume)
     : folder(std::move(where)), kinds(std::move(which)) {
   require_writable_folder(folder);
+  sweep_scratch(folder);
   for (const std::string& kind : kinds) {
     auto& its = moments[kind];
     if (!resume) continue;

@@ -18,6 +18,10 @@ namespace {
 
 // Debian's library is built without thread safety. Recursive, because public functions use each other.
 std::recursive_mutex& library_mutex() {
+  // A file that could not be closed, on a full disk, stays open in the library, which would try again at exit
+  // and crash. Nothing else is left to do then: every file is closed by its owner.
+  static const herr_t left_alone_at_exit = H5dont_atexit();
+  static_cast<void>(left_alone_at_exit);
   static std::recursive_mutex mutex;
   return mutex;
 }
