@@ -103,8 +103,7 @@ TEST_F(ReportPictures, MistakesAreToldInOneLineAndNothingIsWritten) {
               HasSubstr("run/result.json"));
   EXPECT_THAT(refusal(1, {"report", "run", "--png", "--pictures", "/proc/pictures"}),
               HasSubstr("/proc/pictures"));
-  write("run/result.json", "{}");
-  write("run/curves.csv", "");
   std::filesystem::remove(folder / "run" / "curves.csv");
+  std::filesystem::remove_all(folder / "run" / "frames");
   EXPECT_THAT(refusal(2, {"report", "run", "--png"}), HasSubstr("there is no chart to draw"));
 }
