@@ -1,0 +1,173 @@
+// Checkpoints that are damaged, of another kind or of another version: refused with a reason, or read as they
+// were.
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/test_bench.h"
+#include "libdem/core/error.h"
+#include "libdem/core/sha256.h"
+#include "libdem/io/hdf5.h"
+#include "libdem/run/checkpoint.h"
+#include "tests/cli/command.h"
+#include "tests/verification/scene.h"
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A state of moving elements, as virtual tests, studies and impacts keep it, with numbers beside it.
+struct StateFile {
+  dem::Assembly assembly = scene::chain(12, scene::plain_law());
+  dem::StepRoom room{assembly};
+  dem::Belonging belongs_to{{"specimen", std::string(64, 'a')}};
+
+  void write(const fs::path& file) {
+    scene::shake(assembly.particles, 0.1, 3);
+    dem::write_checkpoint(file, belongs_to, assembly, room, {{"record", {1, 2, 3}}, {"curve", {0.5, 0.25}}});
+  }
+};
+
+/// What a reader got from the file, as text; the text of its refusal after "refused: ".
+std::string read_state(const fs::path& file) {
+  StateFile other;
+  try {
+    const dem::NamedNumbers numbers = dem::read_checkpoint(file, other.belongs_to, other.assembly, other.room);
+    return dem::state_sha256(other.assembly) + nlohmann::json(numbers).dump();
+  } catch (const dem::InputError& refusal) {
+    return std::string("refused: ") + refusal.what();
+  }
+}
+
+calibrate::TestSummary summary(double peak) {
+  calibrate::TestSummary made;
+  made.peak_stress = peak, made.steps = 1200, made.passed_peak = true;
+  for (int k = 0; k < 50; ++k) made.curve.push_back({1e-6 * k, peak * k / 50, 0, 0, 0, 0});
+  made.measured = {3e6, 1e-3};
+  return made;
+}
+
+const std::vector<std::string> keys{std::string(64, 'a'), std::string(64, 'b')};
+
+void write_journal(const fs::path& file) {
+  calibrate::TestJournal journal(file, false);
+  for (const std::string& key : keys) journal.add(key, summary(key[0] * 1e4));
+  journal.save();
+}
+
+std::string read_journal(const fs::path& file) {
+  try {
+    const calibrate::TestJournal journal(file, true);
+    nlohmann::json all = nlohmann::json::array({journal.size()});
+    for (const std::string& key : keys) {
+      const calibrate::TestSummary* found = journal.find(key);
+      if (found == nullptr) return "a test is not there";
+      nlohmann::json one{found->peak_stress, found->steps, found->passed_peak, found->measured};
+      for (const auto& p : found->curve) one.push_back({p.strain, p.stress, p.broken});
+      all.push_back(one);
+    }
+    return all.dump();
+  } catch (const dem::InputError& refusal) {
+    return std::string("refused: ") + refusal.what();
+  }
+}
+
+struct Kind {
+  std::string name;
+  std::function<void(const fs::path&)> write;
+  std::function<std::string(const fs::path&)> read;
+};
+
+const std::vector<Kind> kinds{{"state", [](const fs::path& file) { StateFile().write(file); }, read_state},
+                              {"journal", write_journal, read_journal}};
+
+class Checkpoint : public cli::Command {
+ protected:
+  fs::path file() const { return folder / "checkpoint.h5"; }
+  void damage(const std::string& bytes) const { write("checkpoint.h5", bytes); }
+};
+
+}  // namespace
+
+TEST_F(Checkpoint, ATurnedByteIsRefusedOrChangesNothing) {
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    kind.write(file());
+    const std::string bytes = read("checkpoint.h5"), whole = kind.read(file());
+    ASSERT_THAT(whole, testing::Not(HasSubstr("refused")));
+    std::size_t refused = 0, tried = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 97, ++tried) {
+      std::string other = bytes;
+      other[at] = static_cast<char>(~other[at]);
+      damage(other);
+      const std::string found = kind.read(file());
+      if (found.starts_with("refused: ")) {
+        ++refused;
+        EXPECT_THAT(found, AllOf(HasSubstr("checkpoint.h5"), testing::Not(HasSubstr("\n")))) << "byte " << at;
+      } else {
+        EXPECT_EQ(found, whole) << "byte " << at;
+      }
+    }
+    RecordProperty(kind.name, std::to_string(refused) + " refused of " + std::to_string(tried));
+    EXPECT_GT(refused, tried / 4);
+  }
+}
+
+TEST_F(Checkpoint, ATruncatedOneIsRefused) {
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    kind.write(file());
+    const std::string bytes = read("checkpoint.h5");
+    for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 37) {
+      damage(bytes.substr(0, length));
+      EXPECT_THAT(kind.read(file()), testing::StartsWith("refused: ")) << length << " bytes";
+    }
+  }
+}
+
+TEST_F(Checkpoint, AnotherKindOrVersionIsRefusedWithAReason) {
+  const auto rewritten = [&](const Kind& kind, const char* attribute, auto value) {
+    kind.write(file());
+    // Not by the library's own means: nothing in it changes a file in place.
+    const std::string format = dem::Hdf5File::open(file()).text_attribute("/", "format");
+    dem::Hdf5File made = dem::Hdf5File::create(file());
+    made.set_attribute("/", "format", format);
+    made.set_attribute("/", "format_version", std::int32_t{1});
+    made.set_attribute("/", attribute, value);
+    made.close();
+    return kind.read(file());
+  };
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    EXPECT_THAT(rewritten(kind, "format", "spall-specimen"),
+                HasSubstr("is a spall-specimen file, not a spall-"));
+    EXPECT_THAT(rewritten(kind, "format_version", std::int32_t{99}), HasSubstr("format version 99"));
+    EXPECT_THAT(rewritten(kind, "format_version", std::int32_t{0}), HasSubstr("format version 0"));
+  }
+  EXPECT_THAT(rewritten(kinds[1], "format_version", std::int32_t{2}),
+              AllOf(HasSubstr("format version 2"), HasSubstr("start anew")));
+  kinds[1].write(file());
+  EXPECT_THAT(read_state(file()),
+              HasSubstr("is a spall-calibration-journal file, not a spall-checkpoint file"));
+  kinds[0].write(file());
+  EXPECT_THAT(read_journal(file()),
+              HasSubstr("is a spall-checkpoint file, not a spall-calibration-journal file"));
+}
+
+TEST_F(Checkpoint, TheCommandRefusesAnOlderJournalInOneLine) {
+  std::filesystem::create_directory(folder / "out");
+  {
+    dem::Hdf5File made = dem::Hdf5File::create(folder / "out/checkpoint.h5");
+    made.set_attribute("/", "format", "spall-calibration-journal");
+    made.set_attribute("/", "format_version", std::int32_t{2});
+    made.close();
+  }
+  write("case.toml",
+        "[targets]\nE = \"30 GPa\"\nft = \"3 MPa\"\n[fixed]\nzeta = 5\nCo = \"8 MPa\"\n"
+        "[specimen]\nsize = \"0.4x0.2x0.2 m\"\nelements = 1400\n");
+  EXPECT_THAT(refusal(2, {"calibrate", "case.toml", "-o", "out", "--resume", "--quiet"}),
+              AllOf(HasSubstr("out/checkpoint.h5"), HasSubstr("format version 2"), HasSubstr("start anew")));
+}
