@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <mutex>
 #include <system_error>
 #include <utility>
@@ -193,9 +194,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Lock lock;
+  errno = 0;
   Handle file(H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (!file)
-    throw RunError(fmt::format("{}: cannot be created; is the folder there and writable?", path.string()));
+  if (!file) {
+    const std::string reason =
+        errno != 0 ? std::generic_category().message(errno) : std::string("no reason given");
+    throw RunError(
+        fmt::format("{}: cannot be created ({}); is the folder there and writable?", path.string(), reason));
+  }
   return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
