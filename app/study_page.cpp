@@ -15,7 +15,7 @@ report::Table summary_table(const Json& summary) {
       {"quantity", "unit", "tests", "mean", "standard deviation", "smallest", "largest", "spread"}, {}};
   for (const auto& [name, s] : summary.items()) {
     const Label label = label_of_quantity(name);
-    const auto shown = [&](const char* key) { return with_unit(label.factor * number(s, key), ""); };
+    const auto shown = [&, &s = s](const char* key) { return with_unit(label.factor * number(s, key), ""); };
     table.rows.push_back({capital(label.words), label.unit, with_unit(number(s, "count"), "", 15),
                           shown("mean"), shown("std"), shown("min"), shown("max"),
                           with_unit(100 * number(s, "spread_rel"), "%", 3)});

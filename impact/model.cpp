@@ -12,6 +12,7 @@
 #include "impact/fe/critical_step.h"
 #include "impact/fe/gmsh_mesh.h"
 #include "libdem/core/error.h"
+#include "libdem/core/memory.h"
 #include "libdem/motion/critical_step.h"
 #include "specimens/extract.h"
 #include "specimens/interaction_range.h"
@@ -21,6 +22,8 @@
 
 namespace impact {
 namespace {
+
+constexpr double bytes_an_element = 2000;
 
 bool inside(const Vec3& point, const Vec3& low, const Vec3& high) {
   return (point.array() >= low.array() - 1e-9).all() && (point.array() <= high.array() + 1e-9).all();
@@ -36,6 +39,9 @@ specimens::Specimen make_specimen(const Scene& scene, int threads, const dem::Pr
     specimens::PackingOptions packing = scene.structure.packing;
     packing.threads = threads;
     packing.validate();
+    // Before it is packed for nothing: what the run itself will need, see docs/limits.md.
+    dem::require_memory(bytes_an_element * static_cast<double>(packing.elements), "structure: elements",
+                        fmt::format("an impact on {} elements", packing.elements));
     specimen = specimens::pack(packing, progress);
   }
   if (cut) {

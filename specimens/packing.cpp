@@ -10,6 +10,7 @@
 
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/core/memory.h"
 #include "libdem/core/random.h"
 #include "specimens/interaction_range.h"
 #include "specimens/relaxation.h"
@@ -19,6 +20,9 @@
 
 namespace specimens {
 namespace {
+
+// At the peak of packing and linking, see docs/limits.md.
+constexpr double bytes_an_element = 700;
 
 void require_between(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
@@ -47,6 +51,8 @@ void PackingOptions::validate() const {
 
 Specimen pack(const PackingOptions& options, const dem::ProgressCallback& progress) {
   options.validate();
+  dem::require_memory(bytes_an_element * static_cast<double>(options.elements), "packing: elements",
+                      fmt::format("a specimen of {} elements", options.elements));
   Specimen specimen;
   specimen.shape = options.shape;
   specimen.size = options.size;

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <exception>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -15,6 +14,7 @@
 
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/core/memory.h"
 #include "study/plan_key.h"
 #include "study/specimen_store.h"
 #include "study/task_queue.h"
@@ -272,20 +272,9 @@ std::size_t run_missing(const Plan& plan, std::vector<Job> missing, const StudyF
 
 }  // namespace
 
-double available_memory() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string name, unit; in >> name;) {
-    double kilobytes = 0;
-    in >> kilobytes;
-    std::getline(in, unit);
-    if (name == "MemAvailable:") return 0.9 * 1024 * kilobytes;
-  }
-  return 1e9;
-}
-
 RunOutcome run_tasks(const Plan& plan, const std::vector<std::size_t>& chosen, const StudyFolder& folder,
                      const RunOptions& options, const dem::ProgressCallback& progress) {
-  const double memory = options.memory > 0 ? options.memory : available_memory();
+  const double memory = options.memory > 0 ? options.memory : dem::available_memory();
   std::vector<Job> jobs = jobs_of(plan, chosen);
   RunOutcome outcome;
   outcome.chosen = chosen.size();

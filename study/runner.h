@@ -11,7 +11,7 @@ namespace study {
 
 struct RunOptions {
   int threads = 1;            ///< tasks at a time; a task uses one thread
-  double memory = 0;          ///< [bytes] for all tasks at a time; 0: available_memory()
+  double memory = 0;          ///< [bytes] for all tasks at a time; 0: dem::available_memory()
   bool retry_failed = false;  ///< run those again that failed before
 };
 
@@ -26,9 +26,6 @@ struct RunOutcome {
   std::size_t ran = 0;                ///< results made by this run, failures included
   std::vector<TaskFailure> failures;  ///< of the chosen tasks, old and new, in the plan's order
 };
-
-/// Memory that the system can give without swapping, less a tenth [bytes] (MemAvailable of /proc/meminfo).
-double available_memory();
 
 /// Runs the tasks `chosen` (indices into plan.tasks) whose results are not in the folder yet, longest first,
 /// and returns when every one of them has a result or has failed: tasks that another process works on are

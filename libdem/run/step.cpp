@@ -1,11 +1,13 @@
 #include "libdem/run/step.h"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "libdem/core/instructions.h"
+#include "libdem/core/memory.h"
 #include "libdem/core/sha256.h"
 
 namespace dem {
@@ -34,7 +36,15 @@ struct LoadRows {
   }
 };
 
+// What a step keeps beside specimen and assembly, and what the first steps add.
+constexpr double bytes_a_link = 100, bytes_an_element = 300;
+
 Assembly& with_its_memory(Assembly& assembly) {
+  require_memory(
+      bytes_a_link * static_cast<double>(assembly.links.count) +
+          bytes_an_element * static_cast<double>(assembly.particles.count),
+      "elements",
+      fmt::format("a run of {} elements and {} links", assembly.particles.count, assembly.links.count));
   if (assembly.law.transfers_moments)
     for (Links* links : {&assembly.links, &assembly.contacts}) links->remember_moments();
   return assembly;

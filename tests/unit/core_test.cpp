@@ -11,10 +11,12 @@
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/core/memory.h"
 #include "libdem/core/parallel.h"
 #include "libdem/core/random.h"
 #include "libdem/core/sha256.h"
 #include "libdem/core/units.h"
+#include "tests/message_of.h"
 
 using dem::Quantity;
 
@@ -133,4 +135,12 @@ TEST(Errors, KeepTheirParts) {
   EXPECT_EQ(error.where(), "card.toml: nu");
   EXPECT_EQ(error.what_is_wrong(), "is 0.4");
   EXPECT_EQ(error.remedy(), "allowed: below 0.27");
+}
+
+TEST(Memory, IsThereForAMegabyteAndNotForAnExabyte) {
+  EXPECT_GT(dem::available_memory(), 1e6);
+  EXPECT_NO_THROW(dem::require_memory(1e6, "elements", "a specimen"));
+  const std::string said = test::message_of([] { dem::require_memory(1e18, "elements", "a specimen"); });
+  EXPECT_THAT(said, testing::HasSubstr("elements: a specimen needs about 1e+09 GB of memory, "));
+  EXPECT_THAT(said, testing::HasSubstr("GB are free; take fewer elements"));
 }
