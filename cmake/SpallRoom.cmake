@@ -1,8 +1,14 @@
 # A room is one library, linked only to the rooms that it may use: the linker keeps includes running one way.
 #   spall_room(<name> SOURCES ... ROOMS ... LIBRARIES ...)
+set(spall_room_type STATIC)
+if(SPALL_SANITIZE)
+  # So that a room calls its own, optimised copies of inline functions, and not those of a test.
+  set(spall_room_type SHARED)
+  add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>:-Wl,-Bsymbolic-functions>)
+endif()
 function(spall_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
-  add_library(spall_${name} STATIC ${ROOM_SOURCES})
+  add_library(spall_${name} ${spall_room_type} ${ROOM_SOURCES})
   add_library(spall::${name} ALIAS spall_${name})
   set_target_properties(spall_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(spall_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
