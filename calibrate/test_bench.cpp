@@ -117,8 +117,8 @@ void TestJournal::save() const {
   });
 }
 
-TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, TestProtocol how, TestJournal& results,
-                     int thread_count, std::vector<LaboratoryBench> others)
+TestBench::TestBench(const std::vector<specimens::Specimen>& wanted, const TestProtocol& how,
+                     TestJournal& results, int thread_count, std::vector<LaboratoryBench> others)
     : all(wanted), laboratory(std::move(others)), protocol(how), journal(results), threads(thread_count) {
   for (const specimens::Specimen& specimen : all) specimen_hashes.push_back(specimen.sha256());
   for (const LaboratoryBench& bench : laboratory) {

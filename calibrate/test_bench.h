@@ -70,8 +70,8 @@ struct LaboratoryBench {
 class TestBench {
  public:
   /// Keeps references: specimens and journal must outlive the bench.
-  TestBench(const std::vector<specimens::Specimen>& specimens, TestProtocol protocol, TestJournal& journal,
-            int threads, std::vector<LaboratoryBench> laboratory = {});
+  TestBench(const std::vector<specimens::Specimen>& specimens, const TestProtocol& protocol,
+            TestJournal& journal, int threads, std::vector<LaboratoryBench> laboratory = {});
 
   /// Runs the tests of `round` with `card` on all specimens. Throws what a test throws, the first specimen's
   /// first; results that were complete are in the journal by then.

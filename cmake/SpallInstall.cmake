@@ -26,7 +26,7 @@ install(FILES ${PROJECT_BINARY_DIR}/spall-config.cmake ${PROJECT_BINARY_DIR}/spa
         DESTINATION ${spall_package_folder})
 
 # The promise above, kept: installs into a scratch folder, then builds and runs another project against it.
-if(SPALL_TESTS)
+if(SPALL_TESTS AND NOT SPALL_SANITIZE)
   add_test(NAME cli.FindPackage.WorksAfterInstall
            COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}/tests/install/consumer
                    -DSCRATCH=${PROJECT_BINARY_DIR}/tests/install -DCOMPILER=${CMAKE_CXX_COMPILER}

@@ -32,7 +32,7 @@ Particles::Particles(std::span<const Vec3> centres, std::span<const double> radi
 
 void Particles::prescribe(std::size_t i, int dof, double value) {
   prescribed[i] = static_cast<std::uint8_t>(prescribed[i] | 1u << dof);
-  (&kinematics[i].vx)[dof] = value;
+  kinematics[i].rate(dof) = value;
 }
 
 void Particles::release(std::size_t i, int dof) {

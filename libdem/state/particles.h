@@ -22,8 +22,15 @@ struct Kinematics {
   Vec3 position() const { return {x, y, z}; }
   Vec3 velocity() const { return {vx, vy, vz}; }
   Vec3 spin() const { return {wx, wy, wz}; }
+
+  /// The six rates vx to wz by number, 0 to 5: they lie one after another, see the assertions below.
+  // cppcheck-suppress objectIndex
+  double& rate(int c) { return (&vx)[c]; }
+  // cppcheck-suppress objectIndex
+  double rate(int c) const { return (&vx)[c]; }
 };
 static_assert(sizeof(Kinematics) == 12 * sizeof(double));
+static_assert(offsetof(Kinematics, wz) == offsetof(Kinematics, vx) + 5 * sizeof(double));
 
 /// Six numbers of one element, force then moment or mass then inertia, in a row of eight.
 struct alignas(64) SixRow {

@@ -38,7 +38,7 @@ void add_row(BarHistory& history, const BarSlices& slices, const dem::Particles&
     const auto k = static_cast<std::size_t>(slices.of_element[i]);
     const double mass = particles.element_mass(i);
     moved[k] += mass * particles.displacement(i)[slices.axis];
-    speed[k] += mass * (&particles.kinematics[i].vx)[slices.axis];
+    speed[k] += mass * particles.kinematics[i].rate(slices.axis);
   }
   history.time.push_back(time);
   for (std::size_t k = 0; k < slices.count(); ++k) {

@@ -97,7 +97,7 @@ class CyclicRig final : public Rig {
     const double each = 0.5 * sign * speed * moment.velocity;
     for (const auto& [layer, velocity] : {std::pair(&platens.low, each), std::pair(&platens.high, -each)})
       for (const std::int32_t i : *layer)
-        (&particles.kinematics[static_cast<std::size_t>(i)].vx)[axis] = velocity;
+        particles.kinematics[static_cast<std::size_t>(i)].rate(axis) = velocity;
     return false;
   }
 

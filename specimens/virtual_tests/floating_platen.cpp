@@ -14,11 +14,11 @@ void move_floating(dem::Particles& particles, std::span<const std::int32_t> elem
     force += particles.force[i].value[axis];
   }
   const auto first = static_cast<std::size_t>(elements.front());
-  double velocity = (&particles.kinematics[first].vx)[axis];
+  double velocity = particles.kinematics[first].rate(axis);
   const double drag = damping * std::abs(force) * std::clamp(velocity / slow, -1.0, 1.0);
   velocity += time_step * (force - drag) / mass;
   for (const std::int32_t number : elements)
-    (&particles.kinematics[static_cast<std::size_t>(number)].vx)[axis] = velocity;
+    particles.kinematics[static_cast<std::size_t>(number)].rate(axis) = velocity;
 }
 
 }  // namespace virtual_tests

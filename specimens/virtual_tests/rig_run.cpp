@@ -20,7 +20,7 @@ namespace {
 /// Sets all velocities to `factor` times what they are.
 void scale_velocities(dem::Particles& particles, double factor) {
   for (std::size_t i = 0; i < particles.count; ++i)
-    for (int c = 0; c < 6; ++c) (&particles.kinematics[i].vx)[c] *= factor;
+    for (int c = 0; c < 6; ++c) particles.kinematics[i].rate(c) *= factor;
 }
 
 double fastest(const dem::Particles& particles) {
@@ -61,14 +61,14 @@ std::vector<Held> held_in(const dem::Particles& particles) {
 /// Power of whatever holds and drives, against the forces of the step before or after the motion [W].
 double power_of_holding(const dem::Particles& particles, const std::vector<Held>& held) {
   double power = 0;
-  for (const auto& [i, c] : held) power -= particles.force[i].value[c] * (&particles.kinematics[i].vx)[c];
+  for (const auto& [i, c] : held) power -= particles.force[i].value[c] * particles.kinematics[i].rate(c);
   return power;
 }
 
 double kinetic_energy(const dem::Particles& particles, const std::vector<Held>& held) {
   double energy = 0;
   for (const auto& [i, c] : held) {
-    const double v = (&particles.kinematics[i].vx)[c];
+    const double v = particles.kinematics[i].rate(c);
     energy += 0.5 * mass_of(particles, i, c) * v * v;
   }
   return energy;

@@ -74,14 +74,14 @@ class ShearRig final : public Rig {
     for (const std::int32_t i : upper) mass += particles.element_mass(static_cast<std::size_t>(i));
     const double force = force_along(particles, upper, Vec3::Unit(normal)) - part * normal_stress * section;
     const dem::Kinematics& any = particles.kinematics[static_cast<std::size_t>(upper.front())];
-    double lift = (&any.vx)[normal];
+    double lift = any.rate(normal);
     const double slow = 1e-3 * moment.velocity;
     const double drag = damping * std::abs(force) * std::clamp(lift / slow, -1.0, 1.0);
     lift += moment.time_step * (force - drag) / mass;
     for (const std::int32_t i : upper) {
       dem::Kinematics& k = particles.kinematics[static_cast<std::size_t>(i)];
-      (&k.vx)[normal] = lift;
-      (&k.vx)[along] = speed;
+      k.rate(normal) = lift;
+      k.rate(along) = speed;
     }
     return false;
   }

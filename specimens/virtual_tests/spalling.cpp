@@ -129,7 +129,7 @@ double strike(dem::Particles& particles, const std::vector<std::int32_t>& struck
       particles.release(i, plan.axis);
       continue;
     }
-    const double before = (&particles.kinematics[i].vx)[plan.axis];
+    const double before = particles.kinematics[i].rate(plan.axis);
     work += 0.5 * particles.element_mass(i) * (velocity * velocity - before * before);
     particles.prescribe(i, plan.axis, velocity);
   }
@@ -141,7 +141,7 @@ double power_of(const dem::Particles& particles, const std::vector<std::int32_t>
   for (const std::int32_t number : struck) {
     const auto i = static_cast<std::size_t>(number);
     if (particles.is_prescribed(i, axis))
-      power -= particles.force[i].value[axis] * (&particles.kinematics[i].vx)[axis];
+      power -= particles.force[i].value[axis] * particles.kinematics[i].rate(axis);
   }
   return power;
 }

@@ -66,7 +66,7 @@ void stop_free_motions(dem::Particles& particles) {
   for (std::size_t i = 0; i < particles.count; ++i) {
     const Motion whole = motions_at(particles.initial_position[i], centre, arm) * amount;
     for (int c = 0; c < 6; ++c)
-      if (!particles.is_prescribed(i, c)) (&particles.kinematics[i].vx)[c] -= whole[c];
+      if (!particles.is_prescribed(i, c)) particles.kinematics[i].rate(c) -= whole[c];
   }
 }
 
@@ -79,12 +79,12 @@ void start_as_elastic(dem::Particles& particles, const dem::LinkNetwork& network
     for (int c = 0; c < 6; ++c)
       if (particles.is_prescribed(i, c)) {
         held[6 * i + static_cast<std::size_t>(c)] = 1;
-        motion[6 * i + static_cast<std::size_t>(c)] = (&particles.kinematics[i].vx)[c];
+        motion[6 * i + static_cast<std::size_t>(c)] = particles.kinematics[i].rate(c);
       }
   const dem::StaticSolution solution = dem::solve_static(network, std::move(held), std::move(motion), 1e-7);
   for (std::size_t i = 0; i < particles.count; ++i)
     for (std::size_t c = 0; c < 6; ++c) {
-      (&particles.kinematics[i].vx)[c] = solution.displacement[6 * i + c];
+      particles.kinematics[i].rate(c) = solution.displacement[6 * i + c];
       particles.force[i].value[c] = -solution.force[6 * i + c];  // what the links exert on the element
     }
   stop_free_motions(particles);

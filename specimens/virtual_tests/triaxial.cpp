@@ -83,7 +83,7 @@ class TriaxialRig final : public Rig {
     for (const auto& [layer, wanted] :
          {std::pair(&platens.low, 0.5 * moment.velocity), std::pair(&platens.high, -0.5 * moment.velocity)})
       for (const std::int32_t i : *layer) {
-        double& velocity = (&particles.kinematics[static_cast<std::size_t>(i)].vx)[axis];
+        double& velocity = particles.kinematics[static_cast<std::size_t>(i)].rate(axis);
         velocity += share * (wanted - velocity);
       }
     return false;
