@@ -183,7 +183,7 @@ TEST_P(Tie, HoldsTheConstraintKeepsMomentumAndNeverGainsEnergy) {
     EXPECT_LT((u - Vec3(v[0], v[1], v[2])).norm(), 1e-12);
     fastest = std::max(fastest, Vec3(v[0], v[1], v[2]).squaredNorm());
   }
-  EXPECT_EQ(done.max_speed_squared, fastest);
+  EXPECT_DOUBLE_EQ(done.max_speed_squared, fastest);
   // What satisfies the constraint stays as it is.
   const std::vector<double> settled = island.velocity;
   EXPECT_NEAR(multipliers.apply({island.velocity.data(), 6}, *island.nodes, 1e-6).kinetic_change, 0,
