@@ -276,7 +276,8 @@ CsvTable read_csv(const std::filesystem::path& file, const CsvOptions& options) 
     if (cells.size() != table.columns.size()) {
       const bool doubled = table.separator == ',' && cells.size() == 2 * table.columns.size();
       throw InputError(fmt::format("{}: row {}", name, lines[k].number),
-                       fmt::format("has {} cells where the header has {}", cells.size(), table.columns.size()),
+                       fmt::format("has {} cell{} where the header has {}", cells.size(),
+                                   cells.size() == 1 ? "" : "s", table.columns.size()),
                        doubled ? "with decimal commas, separate the columns by semicolons or tabs"
                                : "give every row one cell per column; put text with a separator in quotes");
     }

@@ -166,7 +166,7 @@ LabCurve join_post_peak(const LabCurve& curve) {
 LabCurve loading_branch(const LabCurve& curve, const CheckOptions& options) {
   const auto min_rows = static_cast<std::size_t>(std::max(options.min_rows, 3));
   if (curve.size() < min_rows)
-    throw InputError(curve.file, fmt::format("a curve of {} rows", curve.size()),
+    throw InputError(curve.file, fmt::format("a curve of {} row{}", curve.size(), curve.size() == 1 ? "" : "s"),
                      fmt::format("give at least {}", min_rows));
   refuse_wrong_sign(curve);
   std::size_t peak = peak_index(curve);
