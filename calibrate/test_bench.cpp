@@ -11,6 +11,7 @@
 #include "libdem/core/interrupt.h"
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
+#include "libdem/run/checkpoint.h"
 #include "specimens/virtual_tests/catalogue.h"
 
 namespace calibrate {
@@ -75,7 +76,7 @@ TestSummary summarise(virtual_tests::UniaxialResult result) {
 
 TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::move(path)) {
   if (!resume || !std::filesystem::exists(file)) return;
-  const dem::Hdf5File in = dem::open_spall_file(file, journal_format, journal_version);
+  const dem::Hdf5File in = dem::open_checkpoint(file, journal_format, journal_version);
   // Earlier versions name no SHA-256 of their content.
   if (const auto version = in.number_attribute<std::int32_t>("/", "format_version"); version < journal_version)
     throw dem::InputError(file.string(),
@@ -104,8 +105,15 @@ const TestSummary* TestJournal::find(const std::string& key) const {
 
 void TestJournal::add(const std::string& key, TestSummary summary) { summaries[key] = std::move(summary); }
 
-void TestJournal::save() const {
-  if (file.empty()) return;
+void TestJournal::save_if_due() {
+  if (pace.is_due()) save();
+}
+
+void TestJournal::save() {
+  if (!file.empty()) pace.keep([&] { write(); });
+}
+
+void TestJournal::write() const {
   dem::create_spall_file(file, journal_format, journal_version, [&](dem::Hdf5File& out) {
     dem::Sha256 hash;
     for (const auto& [name, summary] : summaries) {
@@ -217,7 +225,7 @@ RoundResult TestBench::run(const dem::MaterialCard& card, Round round) {
     if (journal.find(task.key) == nullptr) journal.add(task.key, task.summary);
     task.list->push_back(std::move(task.summary));
   }
-  if (fresh) journal.save();
+  if (fresh) journal.save_if_due();
   if (failure) std::rethrow_exception(failure);
   return result;
 }

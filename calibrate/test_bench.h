@@ -9,6 +9,7 @@
 #include "calibrate/calibration_case.h"
 #include "libdem/core/progress.h"
 #include "libdem/material/material_card.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "specimens/specimen.h"
 #include "specimens/virtual_tests/uniaxial.h"
 
@@ -26,22 +27,27 @@ struct TestSummary {
   std::vector<double> measured;  ///< of another laboratory test: its quantities that are targets
 };
 
-/// Results by the hash of everything that they depend on. Saved after every round of tests, so that a run that
-/// was stopped replays what it had and goes on: bit for bit, since a test's result does not depend on when it
-/// was computed.
+/// Results by the hash of everything that they depend on. Saved between rounds of tests, so that a run that was
+/// stopped replays what it had and goes on: bit for bit, since a test's result does not depend on when it was
+/// computed. Rounds that are not in it are computed again.
 class TestJournal {
  public:
   TestJournal() = default;
-  /// `file` is written by `save`; read at once if `resume` and it exists. Throws InputError if it is no
+  /// `file` is written by the two below; read at once if `resume` and it exists. Throws InputError if it is no
   /// journal.
   TestJournal(std::filesystem::path file, bool resume);
   const TestSummary* find(const std::string& key) const;
   void add(const std::string& key, TestSummary summary);
-  void save() const;
+  void save();
+  /// After a round: saves unless the last time is too short ago (a second; more if saving takes long).
+  void save_if_due();
   std::size_t size() const { return summaries.size(); }
 
  private:
+  void write() const;
+
   std::filesystem::path file;
+  dem::CheckpointPace pace{dem::seconds_between_checkpoints(1)};
   std::map<std::string, TestSummary> summaries;
 };
 

@@ -14,6 +14,7 @@
 #include "libdem/core/sha256.h"
 #include "libdem/probe/damage.h"
 #include "libdem/run/checkpoint.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "libdem/run/watch.h"
 
 namespace impact {
@@ -223,7 +224,7 @@ std::vector<double> flat(const std::vector<Vec3>& vectors) {
 
 void set_vectors(std::vector<Vec3>& vectors, const std::vector<double>& numbers, const std::string& where) {
   if (numbers.size() != 3 * vectors.size())
-    throw dem::InputError(where, "has another number of nodes", "start anew without it");
+    throw dem::InputError(where, "has another number of nodes", "start anew without --resume");
   for (std::size_t i = 0; i < vectors.size(); ++i)
     vectors[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
 }
@@ -379,7 +380,8 @@ ImpactResult run_impact(const Scene& scene, int threads, const dem::ProgressCall
     if (scene.frames > 0) show(run, frame, 0);
   }
 
-  Clock::time_point loop = Clock::now(), kept = loop, told = loop;
+  Clock::time_point loop = Clock::now(), told = loop;
+  dem::CheckpointPace pace(checkpoint.interval);
   const auto book_time = [&] {
     run.record.loop_seconds += seconds_since(loop);
     loop = Clock::now();
@@ -405,13 +407,12 @@ ImpactResult run_impact(const Scene& scene, int threads, const dem::ProgressCall
                             run.record.history.empty() ? 0 : run.record.history.back().broken_links)});
     }
     const bool stop = dem::interrupt_requested();
-    if (!checkpoint.file.empty() && (stop || seconds_since(kept) >= checkpoint.interval)) {
+    if (!checkpoint.file.empty() && (stop || pace.is_due())) {
       book_time();
       const double before = run.record.wall_seconds;
       run.record.wall_seconds += seconds_since(start);
-      keep(run, checkpoint.file, belonging);
+      pace.keep([&] { keep(run, checkpoint.file, belonging); });
       run.record.wall_seconds = before;
-      kept = Clock::now();
     }
     if (stop)
       throw dem::Interrupted(checkpoint.file.empty() ? "stopped by a signal"

@@ -134,12 +134,13 @@ void set_from(RunRecord& record, const dem::NamedNumbers& numbers, std::size_t p
   const auto column = [&](const std::string& name, std::size_t length) -> const std::vector<double>& {
     const auto found = numbers.find(name);
     if (found == numbers.end() || (length > 0 && found->second.size() != length))
-      throw dem::InputError(where, fmt::format("has no whole column \"{}\"", name), "start anew without it");
+      throw dem::InputError(where, fmt::format("has no whole column \"{}\"", name),
+                            "start anew without --resume");
     return found->second;
   };
   const std::vector<double>& rows = column("history", 0);
   if (rows.size() % width != 0)
-    throw dem::InputError(where, "has a history of another set of probes", "start anew without it");
+    throw dem::InputError(where, "has a history of another set of probes", "start anew without --resume");
   const auto three = [](const std::vector<double>& from, std::size_t at) {
     return Vec3(from[at], from[at + 1], from[at + 2]);
   };

@@ -108,7 +108,9 @@ std::shared_ptr<Calibration> calibrate_case(const CasePointer& wanted, const std
     calibrate::TestJournal kept =
         journal.empty() ? calibrate::TestJournal() : calibrate::TestJournal(journal, resume);
     try {
-      return Calibration{*wanted, calibrate::calibrate(*wanted, kept, job.threads(), job.progress())};
+      Calibration made{*wanted, calibrate::calibrate(*wanted, kept, job.threads(), job.progress())};
+      kept.save();
+      return made;
     } catch (const dem::InputError& error) {
       throw dem::InputError(wanted->file.string(), error.what(), "");
     } catch (const dem::Interrupted& stop) {

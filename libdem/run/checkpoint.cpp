@@ -8,14 +8,13 @@
 
 #include "libdem/core/error.h"
 #include "libdem/core/sha256.h"
-#include "libdem/io/hdf5.h"
 
 namespace dem {
 namespace {
 
 constexpr const char* format = "spall-checkpoint";
 constexpr int version = 1;
-constexpr const char* start_anew = "go on with what it was made with, or start anew without it";
+constexpr const char* start_anew = "go on with what it was made with, or start anew without --resume";
 
 constexpr std::size_t numbers_per_row = sizeof(Kinematics) / sizeof(double);
 
@@ -179,6 +178,14 @@ void require_same(const Hdf5File& file, const Belonging& belongs_to) {
 
 }  // namespace
 
+Hdf5File open_checkpoint(const std::filesystem::path& path, const std::string& format_wanted, int newest) {
+  try {
+    return open_spall_file(path, format_wanted, newest);
+  } catch (const InputError& error) {
+    throw InputError(error.where(), error.what_is_wrong(), "start anew without --resume");
+  }
+}
+
 void write_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, Assembly& assembly,
                       const StepRoom& room, const NamedNumbers& numbers) {
   settle(assembly, room);
@@ -195,7 +202,7 @@ void write_checkpoint(const std::filesystem::path& path, const Belonging& belong
 
 NamedNumbers read_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, Assembly& assembly,
                              StepRoom& room) {
-  const Hdf5File file = open_spall_file(path, format, version);
+  const Hdf5File file = open_checkpoint(path, format, version);
   require_same(file, belongs_to);
   ContentReader in(file);
   StateRead state = get_state(in, assembly);
@@ -203,7 +210,7 @@ NamedNumbers read_checkpoint(const std::filesystem::path& path, const Belonging&
   for (const std::string& name : file.names_in("numbers")) numbers[name] = in.get<double>("numbers/" + name);
   if (in.sha256() != file.text_attribute("/", "sha256"))
     throw InputError(path.string(), "is damaged: its content does not have the SHA-256 that it names",
-                     "start anew without it");
+                     "start anew without --resume");
   apply(std::move(state), assembly, room);
   return numbers;
 }

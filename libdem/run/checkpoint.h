@@ -6,9 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "libdem/io/hdf5.h"
 #include "libdem/run/step.h"
 
 namespace dem {
+
+/// `open_spall_file` for what a run goes on from: the remedy of its InputError is to start anew.
+Hdf5File open_checkpoint(const std::filesystem::path& file, const std::string& format, int version);
 
 /// What the caller keeps besides the assembly, by name: counters, sums, a curve. A single number is a column of
 /// one. Names must not hold a '/'.

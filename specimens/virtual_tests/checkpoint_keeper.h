@@ -6,8 +6,8 @@
 
 #include "libdem/material/material_card.h"
 #include "libdem/run/checkpoint.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "specimens/virtual_tests/checkpoint_policy.h"
-#include "specimens/virtual_tests/stopwatch.h"
 
 namespace virtual_tests {
 
@@ -34,7 +34,7 @@ class CheckpointKeeper {
  private:
   CheckpointPolicy wanted;
   dem::Belonging belongs_to;
-  Stopwatch since_written;
+  dem::CheckpointPace pace;
 };
 
 /// The column `name` of a checkpoint. Throws InputError that names `file` if it is not there, or has no number

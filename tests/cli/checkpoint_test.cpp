@@ -1,14 +1,17 @@
 // Checkpoints that are damaged, of another kind or of another version: refused with a reason, or read as they
 // were.
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "calibrate/test_bench.h"
 #include "libdem/core/error.h"
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
 #include "libdem/run/checkpoint.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "tests/cli/command.h"
 #include "tests/verification/scene.h"
 
@@ -155,6 +158,60 @@ TEST_F(Checkpoint, AnotherKindOrVersionIsRefusedWithAReason) {
   kinds[0].write(file());
   EXPECT_THAT(read_journal(file()),
               HasSubstr("is a spall-checkpoint file, not a spall-calibration-journal file"));
+}
+
+TEST_F(Checkpoint, AnEarlierJournalOfAFitLeadsToTheSameCard) {
+  write("case.toml",
+        "[targets]\nE = \"30 GPa\"\nft = \"3 MPa\"\n[fixed]\nzeta = 5\nCo = \"8 MPa\"\n"
+        "[specimen]\nsize = \"0.36x0.2x0.2 m\"\nelements = 1000\nfit_seeds = [1]\ncheck_seeds = []\n");
+  const std::vector<std::string> fit{"calibrate", "case.toml", "-o",        "out", "--frames",
+                                     "0",         "--quiet",   "--threads", "1",   "--resume"};
+  const int code = spall(fit).code;
+  ASSERT_THAT(code, testing::AnyOf(0, 4));
+  const std::string card = read("out/card.toml"), curves = read("out/curves.csv");
+  const fs::path file = folder / "out/checkpoint.h5";
+  const calibrate::TestJournal whole(file, true);
+  const std::vector<std::string> all = dem::Hdf5File::open(file).names_in("tests");
+  ASSERT_GE(all.size(), 4u);
+  // As it was before the last rounds were saved, whichever they were.
+  for (std::size_t odd : {0u, 1u}) {
+    calibrate::TestJournal earlier(file, false);
+    for (std::size_t k = odd; k < all.size(); k += 2) earlier.add(all[k], *whole.find(all[k]));
+    earlier.save();
+    for (const char* name : {"result.json", "card.toml", "curves.csv"}) fs::remove(folder / "out" / name);
+    EXPECT_EQ(spall(fit).code, code);
+    EXPECT_EQ(read("out/card.toml"), card);
+    EXPECT_EQ(read("out/curves.csv"), curves);
+    EXPECT_EQ(calibrate::TestJournal(file, true).size(), all.size());
+  }
+}
+
+TEST_F(Checkpoint, AJournalIsSavedAtAPaceUnlessEveryRoundIsAskedFor) {
+  calibrate::TestJournal paced(file(), false);
+  paced.add(keys[0], summary(1));
+  paced.save_if_due();
+  EXPECT_FALSE(fs::exists(file())) << "a round later, within its first second";
+  paced.save();
+  EXPECT_EQ(calibrate::TestJournal(file(), true).size(), 1u);
+  ::setenv("SPALL_CHECKPOINT_SECONDS", "0", 1);
+  calibrate::TestJournal always(file(), true);
+  ::unsetenv("SPALL_CHECKPOINT_SECONDS");
+  always.add(keys[1], summary(2));
+  always.save_if_due();
+  EXPECT_EQ(calibrate::TestJournal(file(), true).size(), 2u);
+}
+
+TEST_F(Checkpoint, TheNextOneWaitsLongerThanWritingTookTwoHundredTimes) {
+  using namespace std::chrono_literals;
+  dem::CheckpointPace pace(0);
+  EXPECT_TRUE(pace.is_due());
+  pace.keep([] { std::this_thread::sleep_for(20ms); });
+  EXPECT_FALSE(pace.is_due());
+  std::this_thread::sleep_for(100ms);
+  EXPECT_FALSE(pace.is_due());
+  pace.keep([] {});
+  std::this_thread::sleep_for(20ms);
+  EXPECT_TRUE(pace.is_due());
 }
 
 TEST_F(Checkpoint, TheCommandRefusesAnOlderJournalInOneLine) {
