@@ -3,6 +3,7 @@
 
 #include "app/calibrate_output.h"
 #include "app/console.h"
+#include "app/finished_run.h"
 #include "app/output.h"
 #include "app/report_page.h"
 #include "app/verbs.h"
@@ -55,6 +56,7 @@ calibrate::CalibrationResult run(const CalibrateOptions& options, const Invocati
   try {
     calibrate::CalibrationResult found =
         calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
+    journal.save();
     write_pictures(options, wanted, found.card, folder, console);
     return found;
   } catch (const dem::Interrupted& stop) {
@@ -71,8 +73,11 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
   for (const std::filesystem::path& input : wanted.inputs) folder.add_input(input);
   for (const std::uint64_t seed : wanted.fit_seeds) folder.add_seed(seed);
   for (const std::uint64_t seed : wanted.check_seeds) folder.add_seed(seed);
-  calibrate::TestJournal journal(folder.file("checkpoint.h5"), options.resume);
   Console console(options.common);
+  if (options.resume && folder.is_finished())
+    return leave_as_it_is(folder, console).value("complete", false) ? done : tolerance_missed;
+  calibrate::TestJournal journal(folder.file("checkpoint.h5"), options.resume);
+  folder.remove_results({"card.toml", "curves.csv"});
   if (options.resume && journal.size() == 0)
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
                                folder.file("checkpoint.h5").string()));

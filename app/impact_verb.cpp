@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/console.h"
+#include "app/finished_run.h"
 #include "app/output.h"
 #include "app/report_page.h"
 #include "app/verbs.h"
@@ -102,6 +103,11 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
   for (const std::filesystem::path& input : scene.inputs) folder.add_input(input);
   folder.add_seed(scene.seed);
   Console console(options.common);
+  if (options.resume && folder.is_finished()) {
+    leave_as_it_is(folder, console);
+    return done;
+  }
+  folder.remove_results({"curves.csv", "history.h5", "fragments.csv"});
   const impact::ImpactResult found = run_or_stop(options, invocation, scene, folder, console);
 
   const nlohmann::ordered_json result = impact::result_of(scene, found, options.common.thread_count());

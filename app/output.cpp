@@ -1,13 +1,17 @@
 #include "app/output.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <ctime>
+#include <fstream>
 #include <string_view>
 
 #include "app/machine.h"
 #include "app/version.h"
 #include "libdem/core/atomic_file.h"
+#include "libdem/core/error.h"
 #include "libdem/core/scratch_files.h"
 #include "libdem/core/sha256.h"
 
@@ -38,6 +42,22 @@ std::string command_to_go_on(const Invocation& invocation) {
   return command + "--resume";
 }
 
+namespace {
+
+/// A command line without what changes no result.
+std::vector<std::string> what_is_asked(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words;
+  for (std::size_t k = 1; k < arguments.size(); ++k) {  // the program may have been called by another path
+    const std::string& word = arguments[k];
+    if (word == "--threads") ++k;
+    if (word != "--resume" && word != "--quiet" && word != "--json" && !word.starts_with("--threads"))
+      words.push_back(word);
+  }
+  return words;
+}
+
+}  // namespace
+
 void remove_if_empty(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_empty(folder, ignored)) std::filesystem::remove(folder, ignored);
@@ -54,6 +74,36 @@ void RunFolder::add_input(const std::filesystem::path& input) {
 }
 
 void RunFolder::add_seed(std::uint64_t seed) { seeds.push_back(seed); }
+
+bool RunFolder::is_input(const std::filesystem::path& file) const {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const nlohmann::ordered_json& input) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(input.at("file").get<std::string>(), file, ignored);
+  });
+}
+
+bool RunFolder::is_finished() const {
+  try {
+    std::ifstream before(file("run.json")), result(file("result.json"));
+    const nlohmann::ordered_json run = nlohmann::ordered_json::parse(before);
+    return nlohmann::ordered_json::accept(result) && run.at("inputs") == inputs &&
+           what_is_asked(run.at("command_line").get<std::vector<std::string>>()) ==
+               what_is_asked(invocation.arguments);
+  } catch (const nlohmann::json::exception&) {
+    return false;  // not there, or of something else
+  }
+}
+
+void RunFolder::remove_results(const std::vector<std::string>& others) const {
+  // result.json first: where it is, everything else is there too.
+  std::vector<std::string> names{"result.json", "run.json", "report.html"};
+  names.insert(names.end(), others.begin(), others.end());
+  for (const std::string& name : names) {
+    std::error_code error;
+    if (!is_input(file(name)) && !std::filesystem::remove(file(name), error) && error)
+      throw dem::RunError(fmt::format("{}: cannot be removed ({})", file(name).string(), error.message()));
+  }
+}
 
 void RunFolder::write(const nlohmann::ordered_json& result) const {
   const Machine machine = this_machine();

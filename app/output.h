@@ -31,6 +31,14 @@ class RunFolder {
   void add_input(const std::filesystem::path& file);
   void add_seed(std::uint64_t seed);
 
+  /// Whether the folder already holds the result of this command with these inputs, however it was to be told
+  /// and on how many threads. Call it once all inputs are added.
+  bool is_finished() const;
+  /// Removes what an earlier run ended with: result.json, run.json, report.html and the others that are named,
+  /// but for this run's inputs. Whoever computes calls it before anything is written, so that a run that is
+  /// killed leaves no result of an earlier one. Throws RunError.
+  void remove_results(const std::vector<std::string>& others) const;
+
   const std::filesystem::path& path() const { return folder; }
   std::filesystem::path file(const std::string& name) const { return folder / name; }
   /// Writes run.json, then result.json: where there is a result.json, everything else is there too. Throws
@@ -38,6 +46,8 @@ class RunFolder {
   void write(const nlohmann::ordered_json& result) const;
 
  private:
+  bool is_input(const std::filesystem::path& file) const;
+
   std::filesystem::path folder;
   const Invocation& invocation;
   int threads;

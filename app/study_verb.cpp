@@ -120,15 +120,31 @@ void say_summary(Console& console, const Json& result) {
                             s["max"].get<double>(), 100 * s["spread_rel"].get<double>()));
 }
 
-/// result.json, rows.csv, run.json and report.html from the results in the folder.
-Json write_study_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan,
-                        Console& console) {
+RunFolder run_folder(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan) {
   RunFolder folder(options.output, invocation, options.common);
   for (const std::filesystem::path& input : plan.study.inputs) folder.add_input(input);
   for (const study::SpecimenRecipe& recipe : plan.study.specimens) folder.add_seed(recipe.packing.seed);
+  return folder;
+}
+
+/// Before a run that ends with a report makes a result, the report of an earlier one goes.
+void remove_earlier_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan) {
+  const study::StudyFolder folder(options.output);
+  if (!std::filesystem::is_directory(options.output) ||
+      std::all_of(plan.tasks.begin(), plan.tasks.end(),
+                  [&](const study::Task& task) { return folder.has_result(task.key); }))
+    return;
+  run_folder(options, invocation, plan).remove_results({"rows.csv"});
+}
+
+/// result.json, rows.csv, run.json and report.html from the results in the folder.
+Json write_study_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan,
+                        Console& console) {
+  const RunFolder folder = run_folder(options, invocation, plan);
   const study::RowTable table = study::read_rows(plan, study::StudyFolder(options.output));
   Json result = study::result_json(plan, table);
   result["orientation"] = study::orientation_json(plan, study::StudyFolder(options.output));
+  folder.remove_results({"rows.csv"});
   dem::write_file_atomically(folder.file("rows.csv"), study::rows_csv(plan, table));
   folder.write(result);
   write_report(folder.path());
@@ -167,12 +183,14 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
                          static_cast<double>(options.memory), options.retry_failed},
                         options.slurm, console);
   }
+  // A part does not report: other parts may be running, and two must not write one file.
+  const bool reports = options.tasks.empty() && options.share.empty();
+  if (reports) remove_earlier_report(options, invocation, plan);
   const study::RunOutcome outcome = run_or_stop(options, invocation, plan, chosen, console);
   console.say(fmt::format("{}: {} tasks, {} results made now, {} found, {} tasks failed", plan.study.name,
                           outcome.chosen, outcome.ran, outcome.results - std::min(outcome.results, outcome.ran),
                           outcome.failures.size()));
-  // A part does not report: other parts may be running, and two must not write one file.
-  if (!options.tasks.empty() || !options.share.empty()) {
+  if (!reports) {
     console.result(Json{{"tasks", outcome.chosen},
                         {"results", outcome.results},
                         {"ran", outcome.ran},

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/console.h"
+#include "app/finished_run.h"
 #include "app/output.h"
 #include "app/report_page.h"
 #include "app/report_words.h"
@@ -157,6 +158,11 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
   const virtual_tests::TestOptions options = options_of(test, command);
   const Inputs inputs = read_inputs(command, test, options, invocation);
   Console console(command.common);
+  if (command.resume && inputs.folder.is_finished()) {
+    leave_as_it_is(inputs.folder, console);
+    return done;
+  }
+  inputs.folder.remove_results({"curves.csv", "fields.h5", "links.h5"});
   const virtual_tests::TestOutcome found = run_or_stop(command, invocation, inputs, options, console);
   const specimens::Specimen& tested = found.tested ? *found.tested : inputs.specimen;
   if (!found.curve.empty())

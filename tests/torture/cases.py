@@ -88,17 +88,21 @@ stop_at = 0.9
 
 
 class Case:
-    """Files by name, and the command that makes the folder `out` from them."""
+    """Files by name, and the command that makes the folder `out` from them.
 
-    def __init__(self, name, files, command, before=(), done=(0,)):
+    interval: seconds between checkpoints, so that there are some; None: as many as there usually are. usual: how often else.
+    """
+
+    def __init__(self, name, files, command, before=(), done=(0,), interval="0.3", usual=0):
         self.name, self.files, self.command, self.before, self.done = name, files, command, before, done
+        self.interval, self.usual = interval, usual
 
 
-def cases(long_impact="0.8 ms"):
+def cases():
+    impact = IMPACT.replace("{duration}", "0.8 ms")
     return [
         Case("calibrate", {"case.toml": CALIBRATE}, ["calibrate", "case.toml", "--frames", "0"], done=(0, 4)),
-        Case("impact", {"card.toml": CARD, "slab.toml": IMPACT.replace("{duration}", long_impact)},
-             ["impact", "slab.toml"]),
+        Case("impact", {"card.toml": CARD, "slab.toml": impact}, ["impact", "slab.toml"]),
         Case("study", {"card.toml": CARD.replace("36 MPa", "3.6 MPa"), "study.toml": STUDY},
              ["study", "run", "study.toml"]),
         Case("test", {"card.toml": CARD},
@@ -107,9 +111,12 @@ def cases(long_impact="0.8 ms"):
     ]
 
 
-def larger_cases():
-    """To see what checkpoints cost: tens of thousands of elements, and a fit on two specimens."""
-    impact = IMPACT.replace("{duration}", "0.5 ms").replace("elements = 4000", "elements = 60000")
-    fit = CALIBRATE.replace("elements = 1000", "elements = 2000").replace("fit_seeds = [1]", "fit_seeds = [1, 2]")
-    return [Case("impact", {"card.toml": CARD, "slab.toml": impact}, ["impact", "slab.toml"]),
-            Case("calibrate", {"case.toml": fit}, ["calibrate", "case.toml", "--frames", "0"], done=(0, 4))]
+def long_cases():
+    """Real work: more than ten seconds each, 20,000 elements and more, a fit on two specimens."""
+    impact = IMPACT.replace("{duration}", "0.5 ms").replace("elements = 4000", "elements = 40000")
+    fit = CALIBRATE.replace("elements = 1000", "elements = 4000").replace("fit_seeds = [1]", "fit_seeds = [1, 2]")
+    study = STUDY.replace("elements = 1100", "elements = 6000")
+    return [Case("calibrate", {"case.toml": fit}, ["calibrate", "case.toml", "--frames", "0"], done=(0, 4), interval=None),
+            Case("impact", {"card.toml": CARD, "slab.toml": impact}, ["impact", "slab.toml"], interval="1", usual=120),
+            Case("study", {"card.toml": CARD.replace("36 MPa", "3.6 MPa"), "study.toml": study},
+                 ["study", "run", "study.toml"], interval="1", usual=120)]

@@ -26,6 +26,22 @@ def stamps(folder):
     return {name: os.stat(path).st_mtime_ns for name, path in files_in(folder).items()}
 
 
+def age(folder):
+    """Makes a finished folder's files old, so that newer ones show."""
+    for path in files_in(folder).values():
+        os.utime(path, (1, 1))
+
+
+def fault_of_rerun(folder):
+    """After a stopped run over an aged folder: the earlier result beside anything newer; None if there is none."""
+    result = os.path.join(folder, "result.json")
+    if not os.path.exists(result) or os.stat(result).st_mtime > 1:
+        return None
+    newer = [name for name, path in sorted(files_in(folder).items())
+             if os.stat(path).st_mtime > 1 and not LEFT_OVER.match(os.path.basename(name))]
+    return f"result.json of the earlier run beside newer {newer}" if newer else None
+
+
 def left_overs(folder):
     return sorted(name for name in files_in(folder) if LEFT_OVER.match(os.path.basename(name)))
 

@@ -4,7 +4,8 @@
     ./dev torture [KILLS] [SEED]      or   tests/torture/torture.py --program build/release/app/spall
 
 Each trial hits a run of spall calibrate, impact, study or test once to three times: a signal, a power cut between writing and
-renaming (or elsewhere: power_cut.c), a full disk, a read-only disk. After each hit every file must be whole and the exit code
+renaming (or elsewhere: power_cut.c), a full disk, a read-only disk; or a run over the folder of a finished one is hit in such a
+way, and must not leave the earlier result beside anything newer. After each hit every file must be whole and the exit code
 right; --resume then goes on to the end. Prints a table and "survived N of M".
 """
 import argparse
@@ -22,8 +23,8 @@ import cases as all_cases
 import folder as checks
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-CHECKPOINT_SECONDS = "0.3"  # small runs are to write some, too
 KINDS = ["SIGINT", "SIGTERM", "SIGKILL", "power cut", "full disk", "read-only"]
+RERUN = "rerun"  # over the folder of a finished run, hit in one of these ways
 CUTS = ["rename", "flushed", "open", "write"]
 LONGEST = 600
 
@@ -45,8 +46,8 @@ class Trial:
         self.history = []
 
     def environment(self, **more):
-        threads = {"OMP_NUM_THREADS": "1", "SPALL_CHECKPOINT_SECONDS": CHECKPOINT_SECONDS}
-        return dict(os.environ, **threads, **more)
+        interval = {"SPALL_CHECKPOINT_SECONDS": self.case.interval} if self.case.interval else {}
+        return dict(os.environ, OMP_NUM_THREADS="1", **interval, **more)
 
     def shimmed(self, **more):
         return self.environment(LD_PRELOAD=self.shim, SPALL_TORTURE_FOLDER=self.out, **more)
@@ -121,6 +122,12 @@ class Trial:
     def in_own_mounts(self, script):
         """Runs a shell's script with mounts that nobody else sees."""
         return self.run(["unshare", "-m", "sh", "-c", script], self.environment())
+
+    def take_finished(self, reference):
+        """The folder of the finished run, to run over it; a study's without its tasks, or there is nothing to do."""
+        shutil.copytree(reference.out, self.out)
+        shutil.rmtree(os.path.join(self.out, "tasks"), ignore_errors=True)
+        checks.age(self.out)
 
     def by_small_disk(self, size, resume):
         """A small tmpfs in place of the folder, its content copied there and back."""
@@ -200,12 +207,18 @@ def run_trial(trial, kind, chance, reference, mounts):
         if name.endswith(".h5"):
             shutil.copy(os.path.join(reference.trial.where, name), trial.where)
     resume = False
+    if kind == RERUN:
+        trial.take_finished(reference)
+        trial.history.append("over a finished run")
     for number in range(chance.choice([1, 1, 2, 3])):
-        how = kind if number == 0 else chance.choice(KINDS)
+        how = kind if number == 0 and kind != RERUN else chance.choice(KINDS)
         outcome, wrong = trial.hit(how, chance, reference, resume, mounts)
         if wrong:
             return wrong
         broken = checks.faults(trial.out, trial.spall) if os.path.isdir(trial.out) else []
+        beside = checks.fault_of_rerun(trial.out) if kind == RERUN and outcome.code not in trial.case.done else None
+        if beside:
+            return beside
         if broken:
             return "; ".join(broken)
         if outcome.code in trial.case.done:
@@ -224,26 +237,24 @@ def may_mount(where):
     return subprocess.run(["unshare", "-m", "sh", "-c", script], capture_output=True).returncode == 0
 
 
-# Seconds between two checkpoints where nothing else is asked for.
-USUAL_INTERVAL = {"impact": 120, "calibrate": 10}
-
-
 def print_cost(spall, shim, where):
     """What the checkpoints cost, at sizes where it matters more than in the small runs."""
-    for case in all_cases.larger_cases():
+    for case in all_cases.long_cases():
         reference = Reference(spall, shim, case, os.path.join(where, "cost-" + case.name), once=True)
-        count = max(1, reference.checkpoints)
-        each = reference.checkpoint_seconds / count
-        interval = USUAL_INTERVAL[case.name]
-        print(f"checkpoint cost: {case.name}, {reference.checkpoints} checkpoints in {reference.run_seconds:.1f} s, "
-              f"{1e3 * each:.1f} ms each; one every {interval} s: {100 * each / interval:.3f}% of the run's time", flush=True)
+        each = reference.checkpoint_seconds / max(1, reference.checkpoints)
+        line = (f"checkpoint cost: {case.name}, {reference.checkpoints} in {reference.run_seconds:.1f} s, {1e3 * each:.1f} ms each"
+                f"{', every ' + case.interval + ' s' if case.interval else ''}: "
+                f"{100 * reference.checkpoint_seconds / reference.run_seconds:.3f}% of the run's time")
+        if case.interval:
+            line += f"; as usual, every {case.usual:g} s: {100 * each / max(case.usual, 200 * each):.3f}%"
+        print(line, flush=True)
 
 
 def print_table(names, tried, survived):
-    print(f"\n{'run':<12}" + "".join(f"{kind:>14}" for kind in KINDS))
+    print(f"\n{'run':<12}" + "".join(f"{kind:>12}" for kind in [*KINDS, RERUN]))
     for name in names:
-        cells = [f"{survived.get((name, kind), 0)}/{tried[name, kind]}" if (name, kind) in tried else "-" for kind in KINDS]
-        print(f"{name:<12}" + "".join(f"{cell:>14}" for cell in cells))
+        cells = [f"{survived.get((name, kind), 0)}/{tried[name, kind]}" if (name, kind) in tried else "-" for kind in [*KINDS, RERUN]]
+        print(f"{name:<12}" + "".join(f"{cell:>12}" for cell in cells))
 
 
 def main():
@@ -252,6 +263,7 @@ def main():
     parser.add_argument("seed", nargs="?", type=int, default=1)
     parser.add_argument("--program", default="build/release/app/spall")
     parser.add_argument("--runs", default="calibrate,impact,study,test", help="which of them")
+    parser.add_argument("--long", action="store_true", help="larger runs, more than ten seconds each")
     parser.add_argument("--cost", action="store_true", help="only say what checkpoints cost")
     parser.add_argument("--folder", help="to work in; kept (default: a temporary one, kept if a run does not survive)")
     options = parser.parse_args()
@@ -266,7 +278,7 @@ def main():
 
     if options.cost:
         return print_cost(spall, shim, where)
-    wanted = [case for case in all_cases.cases() if case.name in options.runs.split(",")]
+    wanted = [case for case in (all_cases.long_cases() if options.long else all_cases.cases()) if case.name in options.runs.split(",")]
     references = {}
     for case in wanted:
         made = references[case.name] = Reference(spall, shim, case, os.path.join(where, case.name))
@@ -275,7 +287,7 @@ def main():
 
     chance = random.Random(options.seed)
     tried, survived, lost = {}, {}, []
-    plan = [(case, kind) for kind in KINDS for case in wanted]
+    plan = [(case, kind) for kind in [*KINDS, RERUN] for case in wanted]
     chance.shuffle(plan)
     for number in range(options.kills):
         case, kind = plan[number % len(plan)]
