@@ -148,11 +148,11 @@ struct Hdf5File::Implementation {
   // A damaged header can claim any size: refuse what the bytes in the file cannot hold, however well
   // compressed.
   void require_plausible(const std::string& name, std::size_t values, std::size_t bytes_each) const {
-    std::error_code error;
-    const std::uintmax_t file_bytes = std::filesystem::file_size(path, error);
+    hsize_t file_bytes = 0;
+    const bool known = H5Fget_filesize(file, &file_bytes) >= 0;
     constexpr double best_compression = 2000, always_allowed = 1 << 20;
     const double bytes = static_cast<double>(values) * static_cast<double>(bytes_each);
-    if (!error && bytes > always_allowed + best_compression * static_cast<double>(file_bytes))
+    if (known && bytes > always_allowed + best_compression * static_cast<double>(file_bytes))
       wrong("dataset " + name, fmt::format("claims {} values, more than the file can hold", values),
             make_again);
   }
@@ -192,10 +192,28 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+Hdf5File Hdf5File::open_image(std::string_view bytes, const std::filesystem::path& path) {
   const Lock lock;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, 1 << 16, false);
+  // The library copies the bytes.
+  H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
+  // To the library two images of one name that are open together would be the same file.
+  static std::uint64_t opened = 0;
+  const std::string name = path.string(), distinct = fmt::format("{}#{}", name, ++opened);
+  Handle file(bytes.empty() ? -1 : H5Fopen(distinct.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  if (!file)
+    throw InputError(name, "is not an HDF5 file, or a damaged one", "give a file that Spall wrote (*.h5)");
+  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& path, bool checked) {
+  const Lock lock;
+  const Handle how(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_obj_track_times(how, false);  // the same content gives the same bytes
+  if (checked) H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   errno = 0;
-  Handle file(H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  Handle file(H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, how, access), H5Fclose);
   if (!file) {
     const std::string reason =
         errno != 0 ? std::generic_category().message(errno) : std::string("no reason given");
@@ -219,11 +237,16 @@ bool Hdf5File::has(const std::string& name) const {
 
 void Hdf5File::make_group(const std::string& name) {
   const Lock lock;
-  if (self->exists(name)) return;
-  const Handle way(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(way, 1);
-  const Handle group(H5Gcreate2(self->file, name.c_str(), way, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  if (!group) self->cannot_write("group " + name);
+  const Handle how(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(how, false);
+  for (std::size_t at = name.find('/', 1);; at = name.find('/', at + 1)) {
+    const std::string part = name.substr(0, at);
+    if (!self->exists(part)) {
+      const Handle group(H5Gcreate2(self->file, part.c_str(), H5P_DEFAULT, how, H5P_DEFAULT), H5Gclose);
+      if (!group) self->cannot_write("group " + part);
+    }
+    if (at == std::string::npos) return;
+  }
 }
 
 std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
@@ -257,10 +280,9 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, std::si
   std::array<hsize_t, 2> extent{columns > 0 ? values.size() / columns : values.size(), columns};
   const int rank = columns > 0 ? 2 : 1;
   const Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose);
-  const Handle way(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(way, 1);
+  if (const auto end = name.rfind('/'); end != std::string::npos && end > 0) make_group(name.substr(0, end));
   const Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(how, false);  // the same content gives the same bytes
+  H5Pset_obj_track_times(how, false);
   if (storage.gzip > 0 && !values.empty()) {
     constexpr hsize_t chunk_rows = 16384;
     std::array<hsize_t, 2> chunk{std::min(extent[0], chunk_rows), columns};
@@ -269,7 +291,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, std::si
     H5Pset_deflate(how, static_cast<unsigned>(std::min(storage.gzip, 9)));
   }
   const hid_t type = memory_type<T>();
-  const Handle made(H5Dcreate2(self->file, name.c_str(), type, space, way, how, H5P_DEFAULT), H5Dclose);
+  const Handle made(H5Dcreate2(self->file, name.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
   if (!made ||
       (!values.empty() && H5Dwrite(made, type, everything, everything, H5P_DEFAULT, values.data()) < 0))
     self->cannot_write("dataset " + name);
@@ -399,7 +421,7 @@ SPALL_INSTANTIATE(std::uint8_t)
 void create_spall_file(const std::filesystem::path& file, const std::string& format, int version,
                        const std::function<void(Hdf5File&)>& write) {
   write_file_atomically(file, [&](const std::filesystem::path& part) {
-    Hdf5File opened = Hdf5File::create(part);
+    Hdf5File opened = Hdf5File::create(part, true);
     opened.set_attribute("/", "format", format);
     opened.set_attribute("/", "format_version", std::int32_t{version});
     write(opened);
@@ -409,6 +431,12 @@ void create_spall_file(const std::filesystem::path& file, const std::string& for
 
 Hdf5File open_spall_file(const std::filesystem::path& path, const std::string& format, int version) {
   Hdf5File file = Hdf5File::open(path);
+  require_spall_file(file, format, version);
+  return file;
+}
+
+void require_spall_file(const Hdf5File& file, const std::string& format, int version) {
+  const std::filesystem::path& path = file.path();
   if (!file.has_attribute("/", "format"))
     throw InputError(path.string(), fmt::format("is an HDF5 file, but not a {} file", format),
                      "give a file that Spall wrote");
@@ -422,7 +450,6 @@ Hdf5File open_spall_file(const std::filesystem::path& path, const std::string& f
         path.string(),
         fmt::format("has {} format version {}, this Spall reads 1 to {}", format, found_version, version),
         "read it with a newer Spall, or make it again with this one");
-  return file;
 }
 
 }  // namespace dem

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dem {
@@ -30,9 +31,12 @@ struct Hdf5Storage {
 class Hdf5File {
  public:
   static Hdf5File open(const std::filesystem::path& file);
+  /// Opens, for reading, the bytes of a file that are in memory; `name` stands for the file in messages.
+  static Hdf5File open_image(std::string_view bytes, const std::filesystem::path& name);
   /// Replaces an existing file. Prefer `create_spall_file`, which leaves the old file alone until the new one
-  /// is whole.
-  static Hdf5File create(const std::filesystem::path& file);
+  /// is whole. `checked`: the library's own records carry checksums, so that it refuses damaged ones instead of
+  /// believing them; HDF5 1.10 or later can read such files.
+  static Hdf5File create(const std::filesystem::path& file, bool checked = false);
   Hdf5File(Hdf5File&&) noexcept;
   Hdf5File& operator=(Hdf5File&&) noexcept;
   /// Closes quietly. After writing call `close` instead, which reports what could not be flushed.
@@ -102,5 +106,7 @@ void create_spall_file(const std::filesystem::path& file, const std::string& for
 /// Opens a Spall file of that kind, written with format version 1 to `version`. Throws InputError if it is no
 /// such file.
 Hdf5File open_spall_file(const std::filesystem::path& file, const std::string& format, int version);
+/// The same of a file that is open.
+void require_spall_file(const Hdf5File& file, const std::string& format, int version);
 
 }  // namespace dem

@@ -129,6 +129,34 @@ TEST_F(Hdf5, RefusesTruncatedFilesAtAnyLength) {
   }
 }
 
+TEST_F(Hdf5, ReadsBytesInMemoryAsTheFileThatTheyAre) {
+  write_example(file("a.h5"));
+  std::ifstream in(file("a.h5"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const Hdf5File opened = Hdf5File::open_image(bytes, "memory.h5");
+  EXPECT_EQ(opened.text_attribute("/", "format"), "spall-specimen");
+  EXPECT_EQ(opened.names_in("/"), Hdf5File::open(file("a.h5")).names_in("/"));
+  EXPECT_THAT(refusal([&] { Hdf5File::open_image("hello", "memory.h5"); }), HasSubstr("memory.h5"));
+  EXPECT_THAT(refusal([&] { Hdf5File::open_image("", "memory.h5"); }), HasSubstr("memory.h5"));
+}
+
+// Without their checksums a damaged length is believed, and the library reads behind its buffers.
+TEST_F(Hdf5, ASpallFileKnowsWhenItsHeadersAreDamaged) {
+  dem::create_spall_file(file("a.h5"), "spall-test", 1, [](Hdf5File& out) {
+    out.set_attribute("/", "words", "as they were");
+    out.write("group/numbers", std::vector<double>{1, 2, 3});
+  });
+  std::ifstream in(file("a.h5"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t words = bytes.find("as they were");
+  ASSERT_NE(words, std::string::npos);
+  for (std::size_t k = 0; k < std::string_view("as they were").size(); ++k) {
+    std::string damaged = bytes;
+    damaged[words + k] ^= 1;
+    EXPECT_THROW(Hdf5File::open_image(damaged, "a.h5").text_attribute("/", "words"), dem::InputError) << k;
+  }
+}
+
 TEST_F(Hdf5, LeavesTheOldFileWhenWritingFails) {
   write_example(file("a.h5"));
   const auto before = dem::sha256_of_file(file("a.h5"));
