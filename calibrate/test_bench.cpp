@@ -10,6 +10,7 @@
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
 #include "libdem/core/sha256.h"
+#include "libdem/io/content.h"
 #include "libdem/io/hdf5.h"
 #include "libdem/run/checkpoint.h"
 #include "specimens/virtual_tests/catalogue.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr const char* journal_format = "spall-calibration-journal";
 constexpr int journal_version = 3;
+constexpr const char* start_anew = "start anew without --resume";
 constexpr std::size_t scalars = 11, columns = 6;
 
 std::vector<double> pack(const TestSummary& s) {
@@ -37,12 +39,6 @@ std::vector<double> pack(const TestSummary& s) {
   for (const virtual_tests::CurvePoint& p : s.curve)
     values.insert(values.end(), {p.strain, p.stress, p.strain_axial, p.strain_lateral, p.broken, p.unbalanced});
   return values;
-}
-
-/// A test's part of the SHA-256 that a journal names of its content.
-void hash_in(dem::Sha256& hash, const std::string& name, const std::vector<double>& values) {
-  const std::uint64_t count = values.size();
-  hash.add(name.data(), name.size()).add(&count, sizeof count).add(values.data(), count * sizeof(double));
 }
 
 /// Whether its counts are counts: a damaged file may hold any number there.
@@ -75,27 +71,28 @@ TestSummary summarise(virtual_tests::UniaxialResult result) {
 }  // namespace
 
 TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::move(path)) {
-  if (!resume || !std::filesystem::exists(file)) return;
-  const dem::Hdf5File in = dem::open_checkpoint(file, journal_format, journal_version);
+  if (resume && std::filesystem::exists(file)) read(dem::open_checkpoint(file, journal_format, journal_version));
+}
+
+void TestJournal::read(const dem::Hdf5File& in) {
+  dem::require_spall_file(in, journal_format, journal_version);
   // Earlier versions name no SHA-256 of their content.
   if (const auto version = in.number_attribute<std::int32_t>("/", "format_version"); version < journal_version)
-    throw dem::InputError(file.string(),
+    throw dem::InputError(in.path().string(),
                           fmt::format("has {} format version {}, this Spall goes on from version {} alone",
                                       journal_format, version, journal_version),
-                          "start anew without --resume");
-  dem::Sha256 hash;
-  const std::vector<std::string> names = in.has("tests") ? in.names_in("tests") : std::vector<std::string>();
-  for (const std::string& name : names) {
-    const std::vector<double> values = in.read<double>("tests/" + name);
-    hash_in(hash, name, values);
+                          start_anew);
+  dem::ContentReader content(in, "tests/");
+  std::map<std::string, TestSummary> found;
+  for (const std::string& name : in.has("tests") ? in.names_in("tests") : std::vector<std::string>()) {
+    const auto values = content.get<double>(name);
     if (!can_be_unpacked(values))
-      throw dem::InputError(file.string(), fmt::format("is damaged: the test {} is not whole", name),
-                            "start anew without --resume");
-    summaries[name] = unpack(values);
+      throw dem::InputError(in.path().string(), fmt::format("is damaged: the test {} is not whole", name),
+                            start_anew);
+    found[name] = unpack(values);
   }
-  if (hash.hex() != in.text_attribute("/", "sha256"))
-    throw dem::InputError(file.string(), "is damaged: its content does not have the SHA-256 that it names",
-                          "start anew without --resume");
+  content.require_seal();
+  summaries = std::move(found);
 }
 
 const TestSummary* TestJournal::find(const std::string& key) const {
@@ -115,13 +112,9 @@ void TestJournal::save() {
 
 void TestJournal::write() const {
   dem::create_spall_file(file, journal_format, journal_version, [&](dem::Hdf5File& out) {
-    dem::Sha256 hash;
-    for (const auto& [name, summary] : summaries) {
-      const std::vector<double> values = pack(summary);
-      out.write("tests/" + name, values);
-      hash_in(hash, name, values);
-    }
-    out.set_attribute("/", "sha256", hash.hex());
+    dem::ContentWriter content(out, "tests/");
+    for (const auto& [name, summary] : summaries) content.put(name, pack(summary));
+    content.seal();
   });
 }
 

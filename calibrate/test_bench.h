@@ -13,6 +13,10 @@
 #include "specimens/specimen.h"
 #include "specimens/virtual_tests/uniaxial.h"
 
+namespace dem {
+class Hdf5File;
+}
+
 namespace calibrate {
 
 /// What a fit keeps of one virtual test.
@@ -36,6 +40,8 @@ class TestJournal {
   /// `file` is written by the two below; read at once if `resume` and it exists. Throws InputError if it is no
   /// journal.
   TestJournal(std::filesystem::path file, bool resume);
+  /// Takes over what an open journal holds. Throws InputError, and changes nothing, if it is none or damaged.
+  void read(const dem::Hdf5File& journal);
   const TestSummary* find(const std::string& key) const;
   void add(const std::string& key, TestSummary summary);
   void save();

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "libdem/core/error.h"
-#include "libdem/core/sha256.h"
+#include "libdem/io/content.h"
 
 namespace dem {
 namespace {
@@ -17,44 +17,6 @@ constexpr int version = 1;
 constexpr const char* start_anew = "go on with what it was made with, or start anew without --resume";
 
 constexpr std::size_t numbers_per_row = sizeof(Kinematics) / sizeof(double);
-
-/// Writes columns and hashes them on the way, names and lengths too.
-class ContentWriter {
- public:
-  explicit ContentWriter(Hdf5File& out) : file(out) {}
-  template <class T>
-  void put(const std::string& name, const T* values, std::size_t count) {
-    file.write(name, std::span<const T>(values, count));
-    hash.add(name.data(), name.size()).add(&count, sizeof count).add(values, count * sizeof(T));
-  }
-  template <class Values>
-  void put(const std::string& name, const Values& values) {
-    put(name, values.data(), values.size());
-  }
-  std::string sha256() { return hash.hex(); }
-
- private:
-  Hdf5File& file;
-  Sha256 hash;
-};
-
-/// Reads the same columns in the same order, and hashes them alike.
-class ContentReader {
- public:
-  explicit ContentReader(const Hdf5File& in) : file(in) {}
-  template <class T>
-  std::vector<T> get(const std::string& name, std::size_t length = Hdf5File::any) {
-    std::vector<T> values = file.read<T>(name, 0, length);
-    const std::size_t count = values.size();
-    hash.add(name.data(), name.size()).add(&count, sizeof count).add(values.data(), count * sizeof(T));
-    return values;
-  }
-  std::string sha256() { return hash.hex(); }
-
- private:
-  const Hdf5File& file;
-  Sha256 hash;
-};
 
 /// Which degrees of freedom are prescribed, six per element: where the inverse mass is zero.
 std::vector<std::uint8_t> held_dofs(const Particles& particles) {
@@ -107,6 +69,22 @@ Links get_contacts(ContentReader& in, bool remember_moments) {
   for (const HistoryColumn& history : history_columns(remember_moments))
     contacts.*history.values = column(in.get<double>(fmt::format("contacts/{}", history.name), padded));
   return contacts;
+}
+
+/// Whether the columns are those of so many pairs of elements that are there: they are used as indices.
+void require_contacts(const std::filesystem::path& file, const Links& contacts, std::size_t elements) {
+  const auto refuse = [&](const std::string& wrong) { throw InputError(file.string(), wrong, start_anew); };
+  const std::size_t padded = contacts.padded();
+  if (padded % link_padding != 0 || contacts.count > padded || padded - contacts.count >= link_padding)
+    refuse(fmt::format("is damaged: {} contacts in columns of {}", contacts.count, padded));
+  for (std::size_t k = 0; k < padded; ++k) {
+    // The padding joins ghosts.
+    const auto known = static_cast<std::int64_t>(elements + (k < contacts.count ? 0 : ghost_elements));
+    if (contacts.a[k] < 0 || contacts.b[k] < 0 || contacts.a[k] >= known || contacts.b[k] >= known ||
+        contacts.a[k] == contacts.b[k])
+      refuse(fmt::format("is damaged: contact {} joins elements {} and {}, of {}", k, contacts.a[k],
+                         contacts.b[k], elements));
+  }
 }
 
 void put_state(ContentWriter& out, const Assembly& assembly, const StepRoom& room) {
@@ -196,21 +174,25 @@ void write_checkpoint(const std::filesystem::path& path, const Belonging& belong
     ContentWriter out(file);
     put_state(out, assembly, room);
     for (const auto& [name, values] : numbers) out.put("numbers/" + name, values);
-    file.set_attribute("/", "sha256", out.sha256());
+    out.seal();
   });
 }
 
 NamedNumbers read_checkpoint(const std::filesystem::path& path, const Belonging& belongs_to, Assembly& assembly,
                              StepRoom& room) {
-  const Hdf5File file = open_checkpoint(path, format, version);
+  return read_checkpoint(open_checkpoint(path, format, version), belongs_to, assembly, room);
+}
+
+NamedNumbers read_checkpoint(const Hdf5File& file, const Belonging& belongs_to, Assembly& assembly,
+                             StepRoom& room) {
+  require_spall_file(file, format, version);
   require_same(file, belongs_to);
   ContentReader in(file);
   StateRead state = get_state(in, assembly);
   NamedNumbers numbers;
   for (const std::string& name : file.names_in("numbers")) numbers[name] = in.get<double>("numbers/" + name);
-  if (in.sha256() != file.text_attribute("/", "sha256"))
-    throw InputError(path.string(), "is damaged: its content does not have the SHA-256 that it names",
-                     "start anew without --resume");
+  in.require_seal();
+  require_contacts(file.path(), state.contacts, assembly.particles.count);
   apply(std::move(state), assembly, room);
   return numbers;
 }

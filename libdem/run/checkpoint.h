@@ -36,5 +36,8 @@ void write_checkpoint(const std::filesystem::path& file, const Belonging& belong
 /// the file is no checkpoint, has a newer version, is damaged, or belongs to something else (it says to what).
 NamedNumbers read_checkpoint(const std::filesystem::path& file, const Belonging& belongs_to, Assembly& assembly,
                              StepRoom& room);
+/// The same of a file that is open.
+NamedNumbers read_checkpoint(const Hdf5File& file, const Belonging& belongs_to, Assembly& assembly,
+                             StepRoom& room);
 
 }  // namespace dem

@@ -15,6 +15,7 @@
 #include "specimens/virtual_tests/expected_end.h"
 #include "specimens/virtual_tests/setup.h"
 #include "specimens/virtual_tests/uniaxial.h"
+#include "tests/verification/scene.h"
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -244,6 +245,26 @@ TEST_F(Resume, ARefusedCheckpointChangesNothing) {
   EXPECT_EQ(state_sha256(assembly), before);
   EXPECT_EQ(read_checkpoint(file, {}, assembly, room)["steps"], std::vector<double>{5});
   EXPECT_NE(state_sha256(assembly), before);
+}
+
+// The sum is right, the numbers are none that a run can have.
+TEST_F(Resume, RefusesAContactOfElementsThatAreNotThere) {
+  for (const std::int32_t other : {-1, 0, 3, 1 << 30}) {
+    dem::Assembly written = scene::chain(3, scene::plain_law());
+    const dem::StepRoom room(written);
+    written.contacts.push(0, 1, 0.02, 1e-4, dem::born_broken);
+    written.contacts.pad(3);
+    written.contacts.b[0] = other;
+    dem::write_checkpoint(file, {}, written, room, {});
+    dem::Assembly fresh = scene::chain(3, scene::plain_law());
+    dem::StepRoom fresh_room(fresh);
+    try {
+      dem::read_checkpoint(file, {}, fresh, fresh_room);
+      FAIL() << other;
+    } catch (const dem::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("is damaged: contact 0 joins elements 0 and ")) << other;
+    }
+  }
 }
 
 TEST(Progress, NeverPassesItsTotalAndTellsTheEndAfterThePeak) {
