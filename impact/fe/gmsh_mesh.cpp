@@ -22,7 +22,7 @@ constexpr int eight_node_hexahedron = 5;  // Gmsh's number of the type
 /// The functions of Gmsh that are used here, looked up in the library when it is first needed.
 struct Gmsh {
   decltype(&gmshInitialize) initialize = nullptr;
-  decltype(&gmshFinalize) finalize = nullptr;
+  decltype(&gmshClear) clear = nullptr;
   decltype(&gmshFree) release = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
   decltype(&gmshOpen) open = nullptr;
@@ -49,7 +49,7 @@ struct Gmsh {
             fmt::format("the Gmsh library has no function {}: install Gmsh 4.8 or later", name));
     };
     find(initialize, "gmshInitialize");
-    find(finalize, "gmshFinalize");
+    find(clear, "gmshClear");
     find(release, "gmshFree");
     find(set_number, "gmshOptionSetNumber");
     find(open, "gmshOpen");
@@ -60,16 +60,18 @@ struct Gmsh {
     find(physical_groups, "gmshModelGetPhysicalGroups");
     find(physical_name, "gmshModelGetPhysicalName");
     find(group_nodes, "gmshModelMeshGetNodesForPhysicalGroup");
+    // Once: it takes far longer than a small mesh, and leaves memory behind each time.
+    int error = 0;
+    initialize(0, nullptr, 0, &error);
+    set_number("General.Terminal", 0, &error);
   }
 };
 
-/// Gmsh keeps one model for the whole process: it is opened here, under a lock, and closed whatever happens.
+/// Gmsh keeps its models for the whole process: one is opened here, under a lock, and cleared whatever happens.
 class Session {
  public:
   explicit Session(const std::string& file) : lock(mutex()), gmsh(library()), name(file) {
     int error = 0;
-    gmsh.initialize(0, nullptr, 0, &error);
-    gmsh.set_number("General.Terminal", 0, &error);
     gmsh.open(file.c_str(), &error);
     if (error != 0) {
       close();
@@ -107,7 +109,7 @@ class Session {
   }
   void close() const {
     int error = 0;
-    gmsh.finalize(&error);
+    gmsh.clear(&error);
   }
 
   std::lock_guard<std::mutex> lock;
