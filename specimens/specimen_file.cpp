@@ -74,8 +74,11 @@ void write_specimen(const std::filesystem::path& file, const Specimen& specimen)
   });
 }
 
-Specimen read_specimen(const std::filesystem::path& path) {
-  const dem::Hdf5File file = dem::open_spall_file(path, format, specimen_format_version);
+Specimen read_specimen(const std::filesystem::path& path) { return read_specimen(dem::Hdf5File::open(path)); }
+
+Specimen read_specimen(const dem::Hdf5File& file) {
+  dem::require_spall_file(file, format, specimen_format_version);
+  const std::filesystem::path& path = file.path();
   Specimen specimen;
   const std::string shape = file.text_attribute("/", "shape");
   if (shape != name_of(Shape::box) && shape != name_of(Shape::cylinder))

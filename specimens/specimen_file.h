@@ -4,6 +4,10 @@
 
 #include "specimens/specimen.h"
 
+namespace dem {
+class Hdf5File;
+}
+
 namespace specimens {
 
 inline constexpr int specimen_format_version = 1;
@@ -19,5 +23,7 @@ void write_specimen(const std::filesystem::path& file, const Specimen& specimen)
 /// names), or holds what no specimen can: values that are not finite, elements outside the shape, links that
 /// are unsorted, doubled or point nowhere.
 Specimen read_specimen(const std::filesystem::path& file);
+/// The same of a file that is open.
+Specimen read_specimen(const dem::Hdf5File& file);
 
 }  // namespace specimens

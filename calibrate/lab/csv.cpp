@@ -74,10 +74,15 @@ std::string read_text(const std::filesystem::path& path) {
   if (!in) throw InputError(file, "cannot be read", "check the path and that you may read it");
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (in.bad()) throw InputError(file, "cannot be read to its end", "check the disk");
+  return text;
+}
+
+/// Without a byte order mark, and UTF-8 whatever it was.
+std::string decoded(std::string text, const std::string& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || text.find('\0') != std::string::npos)
     throw InputError(file, "is UTF-16 or no text at all", "save it as CSV in UTF-8");
-  return is_utf8(text) ? text : from_latin1(text);
+  return is_utf8(text) ? std::move(text) : from_latin1(text);
 }
 
 /// Lines with their numbers; comments and blank lines are left out.
@@ -239,10 +244,13 @@ std::vector<std::string> nearest_names(std::string_view name, const std::vector<
 }
 
 CsvTable read_csv(const std::filesystem::path& file, const CsvOptions& options) {
+  return parse_csv(read_text(file), file.string(), options);
+}
+
+CsvTable parse_csv(std::string text, const std::string& name, const CsvOptions& options) {
   CsvTable table;
-  table.file = file.string();
-  const std::string& name = table.file;
-  std::vector<Line> lines = split_lines(read_text(file), options.comment);
+  table.file = name;
+  std::vector<Line> lines = split_lines(decoded(std::move(text), name), options.comment);
   table.separator = options.separator;
   if (!lines.empty() && lower(lines[0].text).starts_with("sep=") && lines[0].text.size() == 5) {
     if (table.separator == 0) table.separator = lines[0].text[4];

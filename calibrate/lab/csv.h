@@ -39,6 +39,8 @@ struct CsvOptions {
 /// dem::InputError if the file cannot be read, is empty, has no header or nothing but a header, or if a row has
 /// more or fewer cells than the header.
 CsvTable read_csv(const std::filesystem::path& file, const CsvOptions& options = {});
+/// The same of a table in memory; `name` stands for the file in messages.
+CsvTable parse_csv(std::string text, const std::string& name, const CsvOptions& options = {});
 
 /// The column called `name` (the name without the unit, or the whole header). Throws dem::InputError, with the
 /// nearest names and all that there are, if it is missing or there are several.

@@ -16,7 +16,7 @@ class WrongSum : public InputError {
  public:
   WrongSum(const std::filesystem::path& file, std::string named_sum, std::string found_sum)
       : InputError(file.string(), "is damaged: its content does not have the SHA-256 that it names",
-                   "start anew without it"),
+                   "start anew without --resume"),
         named(std::move(named_sum)),
         found(std::move(found_sum)) {}
   std::string named, found;

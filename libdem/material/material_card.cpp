@@ -12,6 +12,7 @@
 #include "libdem/core/error.h"
 #include "libdem/core/units.h"
 #include "libdem/material/card_numbers.h"
+#include "libdem/material/card_table.h"
 
 namespace dem {
 namespace {
@@ -208,8 +209,9 @@ void MaterialCard::validate(const std::string& where) const {
     throw InputError(fmt::format("{}: {}", where, found->key), found->what_is_wrong, found->remedy);
 }
 
-MaterialCard read_card(const std::filesystem::path& file) {
-  const TomlTable table = TomlTable::read(file);
+MaterialCard read_card(const std::filesystem::path& file) { return card_of(TomlTable::read(file)); }
+
+MaterialCard card_of(const TomlTable& table) {
   std::vector<std::string> known{"name"};
   for (const Field& field : fields) known.emplace_back(field.key);
   for (const char* key :

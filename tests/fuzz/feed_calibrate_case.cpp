@@ -1,7 +1,10 @@
 #include "calibrate/calibration_case.h"
+#include "libdem/config/toml_reader.h"
 #include "tests/fuzz/feeds.h"
-#include "tests/fuzz/scratch_file.h"
+#include "tests/fuzz/scratch_folder.h"
 
 void fuzz::calibrate_case(std::string_view bytes) {
-  read_as_file("case.toml", bytes, [](const auto& file) { calibrate::read_case(file); });
+  // Files that it names are looked for beside it.
+  static const std::string name = (scratch_folder() / "case.toml").string();
+  take_refusal([&] { calibrate::case_of(dem::TomlTable::parse(bytes, name)); });
 }

@@ -1,7 +1,7 @@
-#include "libdem/material/material_card.h"
+#include "libdem/material/card_table.h"
 #include "tests/fuzz/feeds.h"
-#include "tests/fuzz/scratch_file.h"
+#include "tests/fuzz/scratch_folder.h"
 
 void fuzz::card(std::string_view bytes) {
-  read_as_file("card.toml", bytes, [](const auto& file) { dem::to_toml(dem::read_card(file)); });
+  take_refusal([&] { dem::to_toml(dem::card_of(dem::TomlTable::parse(bytes, "card.toml"))); });
 }

@@ -1,7 +1,7 @@
 #include "calibrate/test_bench.h"
 #include "tests/fuzz/feeds.h"
-#include "tests/fuzz/scratch_file.h"
+#include "tests/fuzz/seal.h"
 
 void fuzz::journal(std::string_view bytes) {
-  read_as_file("checkpoint.h5", bytes, [](const auto& file) { calibrate::TestJournal(file, true); });
+  read_sealed(bytes, "checkpoint.h5", [](const dem::Hdf5File& file) { calibrate::TestJournal().read(file); });
 }

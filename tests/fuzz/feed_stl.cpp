@@ -1,10 +1,7 @@
 #include "impact/impactors/stl.h"
 #include "tests/fuzz/feeds.h"
-#include "tests/fuzz/scratch_file.h"
+#include "tests/fuzz/scratch_folder.h"
 
 void fuzz::stl(std::string_view bytes) {
-  try {
-    impact::parse_stl(bytes, "rock.stl", 0.001);
-  } catch (const dem::InputError&) {
-  }
+  take_refusal([&] { impact::parse_stl(bytes, "rock.stl", 0.001); });
 }

@@ -1,11 +1,9 @@
-// A file in memory that a reader opens by its name.
+// What every feed uses: refusals are taken, and files that a text may name are there.
 #pragma once
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <string_view>
 
 #include "libdem/core/error.h"
 
@@ -33,13 +31,11 @@ inline const std::filesystem::path& scratch_folder() {
   return folder.path;
 }
 
-/// Writes `bytes` to the file of this name there, and lets `read` read it.
+/// What a reader may say of a wrong file is no finding.
 template <class Read>
-void read_as_file(const char* name, std::string_view bytes, Read&& read) {
-  const std::filesystem::path file = scratch_folder() / name;
-  std::ofstream(file, std::ios::binary) << bytes;
+void take_refusal(Read&& read) {
   try {
-    read(file);
+    read();
   } catch (const dem::InputError&) {
   } catch (const dem::RunError&) {
   }
