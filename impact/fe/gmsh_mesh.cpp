@@ -25,7 +25,7 @@ struct Gmsh {
   decltype(&gmshClear) clear = nullptr;
   decltype(&gmshFree) release = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
-  decltype(&gmshOpen) open = nullptr;
+  decltype(&gmshMerge) merge = nullptr;
   decltype(&gmshModelMeshGetNodes) nodes = nullptr;
   decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshModelMeshGetElementProperties) element_properties = nullptr;
@@ -52,7 +52,7 @@ struct Gmsh {
     find(clear, "gmshClear");
     find(release, "gmshFree");
     find(set_number, "gmshOptionSetNumber");
-    find(open, "gmshOpen");
+    find(merge, "gmshMerge");
     find(nodes, "gmshModelMeshGetNodes");
     find(element_types, "gmshModelMeshGetElementTypes");
     find(element_properties, "gmshModelMeshGetElementProperties");
@@ -72,7 +72,8 @@ class Session {
  public:
   explicit Session(const std::string& file) : lock(mutex()), gmsh(library()), name(file) {
     int error = 0;
-    gmsh.open(file.c_str(), &error);
+    // Not gmshOpen: after a file that it could not read it is locked, and reads nothing more.
+    gmsh.merge(file.c_str(), &error);
     if (error != 0) {
       close();
       refuse();
