@@ -71,7 +71,8 @@ TestSummary summarise(virtual_tests::UniaxialResult result) {
 }  // namespace
 
 TestJournal::TestJournal(std::filesystem::path path, bool resume) : file(std::move(path)) {
-  if (resume && std::filesystem::exists(file)) read(dem::open_checkpoint(file, journal_format, journal_version));
+  if (resume && std::filesystem::exists(file))
+    read(dem::open_checkpoint(file, journal_format, journal_version));
 }
 
 void TestJournal::read(const dem::Hdf5File& in) {

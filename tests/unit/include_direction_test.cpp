@@ -18,33 +18,15 @@ namespace fs = std::filesystem;
 
 // From the ground up. A file belongs to the room with the longest name that begins its path.
 constexpr std::array kRooms = {
-    "libdem/core",
-    "libdem/config",
-    "libdem/io",
-    "libdem/material",
-    "libdem/state",
-    "libdem/law",
-    "libdem/search",
-    "libdem/statics",
-    "libdem/force",
-    "libdem/motion",
-    "libdem/drive",
-    "libdem/probe",
-    "libdem/run",
-    "specimens",
-    "specimens/virtual_tests",
-    "exchange",
-    "calibrate/lab",
-    "calibrate",
-    "impact/fe",
-    "impact/coupling",
-    "impact/impactors",
-    "impact/outcome",
-    "impact",
-    "report",
-    "study/statistics",
-    "study",
-    "app",
+    "libdem/core",      "libdem/config",   "libdem/io",
+    "libdem/material",  "libdem/state",    "libdem/law",
+    "libdem/search",    "libdem/statics",  "libdem/force",
+    "libdem/motion",    "libdem/drive",    "libdem/probe",
+    "libdem/run",       "specimens",       "specimens/virtual_tests",
+    "exchange",         "calibrate/lab",   "calibrate",
+    "impact/fe",        "impact/coupling", "impact/impactors",
+    "impact/outcome",   "impact",          "report",
+    "study/statistics", "study",           "app",
     "python",
 };
 
@@ -101,7 +83,8 @@ TEST(IncludeDirection, RunsOneWayThroughoutTheTree) {
   const fs::path root = SPALL_SOURCE_DIR;
   std::vector<std::string> complaints;
   int files = 0;
-  for (const char* top : {"libdem", "specimens", "exchange", "calibrate", "impact", "report", "study", "app", "python"}) {
+  for (const char* top :
+       {"libdem", "specimens", "exchange", "calibrate", "impact", "report", "study", "app", "python"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const auto extension = entry.path().extension();
