@@ -113,4 +113,4 @@ TEST_P(Rerun, ResumeOfAFinishedRunLeavesItAsItIs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, Rerun, testing::ValuesIn(verbs),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& verb) { return verb.param.name; });
