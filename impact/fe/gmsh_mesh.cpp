@@ -64,6 +64,8 @@ struct Gmsh {
     int error = 0;
     initialize(0, nullptr, 0, &error);
     set_number("General.Terminal", 0, &error);
+    // Partitions mean nothing here, and Gmsh 4.8 crashes where an old file's are damaged.
+    set_number("Mesh.PartitionConvertMsh2", 0, &error);
   }
 };
 
