@@ -56,11 +56,9 @@ calibrate::CalibrationResult run(const CalibrateOptions& options, const Invocati
   try {
     calibrate::CalibrationResult found =
         calibrate::calibrate(wanted, journal, options.common.thread_count(), console.progress());
-    journal.save();
     write_pictures(options, wanted, found.card, folder, console);
     return found;
   } catch (const dem::Interrupted& stop) {
-    journal.save();
     throw dem::Interrupted(fmt::format("{}; {} virtual tests are kept in {}/checkpoint.h5: go on with {}",
                                        stop.what(), journal.size(), options.output,
                                        command_to_go_on(invocation)));

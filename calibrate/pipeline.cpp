@@ -190,14 +190,8 @@ void write_provenance(const CalibrationCase& wanted, CalibrationResult& result) 
     notes.emplace_back(fmt::format("note_{}", k + 1), wanted.notes[k]);
 }
 
-}  // namespace
-
-bool CalibrationResult::all_met() const {
-  return std::all_of(targets.begin(), targets.end(), [](const TargetResult& r) { return r.met(); });
-}
-
-CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal, int threads,
-                            const dem::ProgressCallback& progress) {
+CalibrationResult fit(const CalibrationCase& wanted, TestJournal& journal, int threads,
+                      const dem::ProgressCallback& progress) {
   const auto start = std::chrono::steady_clock::now();
   CalibrationResult result;
   const auto report = [&](const std::string& stage, double done, double total, const std::string& detail) {
@@ -285,6 +279,24 @@ CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal,
   result.virtual_tests = bench.virtual_tests() + check.virtual_tests();
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+}  // namespace
+
+bool CalibrationResult::all_met() const {
+  return std::all_of(targets.begin(), targets.end(), [](const TargetResult& r) { return r.met(); });
+}
+
+CalibrationResult calibrate(const CalibrationCase& wanted, TestJournal& journal, int threads,
+                            const dem::ProgressCallback& progress) {
+  try {
+    CalibrationResult result = fit(wanted, journal, threads, progress);
+    journal.save();
+    return result;
+  } catch (const dem::Interrupted&) {
+    journal.save();
+    throw;
+  }
 }
 
 }  // namespace calibrate

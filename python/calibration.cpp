@@ -108,14 +108,11 @@ std::shared_ptr<Calibration> calibrate_case(const CasePointer& wanted, const std
     calibrate::TestJournal kept =
         journal.empty() ? calibrate::TestJournal() : calibrate::TestJournal(journal, resume);
     try {
-      Calibration made{*wanted, calibrate::calibrate(*wanted, kept, job.threads(), job.progress())};
-      kept.save();
-      return made;
+      return Calibration{*wanted, calibrate::calibrate(*wanted, kept, job.threads(), job.progress())};
     } catch (const dem::InputError& error) {
       throw dem::InputError(wanted->file.string(), error.what(), "");
     } catch (const dem::Interrupted& stop) {
       if (journal.empty()) throw;
-      kept.save();
       throw dem::Interrupted(fmt::format("{}; {} virtual tests are kept in {}: go on with resume=True",
                                          stop.what(), kept.size(), journal.string()));
     }
