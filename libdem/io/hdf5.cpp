@@ -13,6 +13,7 @@
 
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/io/hdf5_older_form.h"
 
 namespace dem {
 namespace {
@@ -180,6 +181,9 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(name, "no such file", "check the path");
   if (!std::filesystem::is_regular_file(path, error)) throw InputError(name, "is not a file", "check the path");
+  if (!survives_older_form(path))
+    throw InputError(name, "is an HDF5 file so damaged that the library which reads it crashes",
+                     "make it again, or fetch a whole copy");
   Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file) {
     const htri_t is_hdf5 = H5Fis_hdf5(name.c_str());

@@ -104,7 +104,7 @@ TestOption flag_option(std::string key, std::string help, Access access) {
 
 /// `access` names an int that counts through the choices; -1 where the test chooses.
 template <class Options, class Access>
-TestOption choice_option(std::string key, std::vector<std::string> choices, std::string fallback,
+TestOption choice_option(std::string key, const std::vector<std::string>& choices, std::string fallback,
                          std::string help, Access access) {
   TestOption option;
   option.key = std::move(key);

@@ -157,6 +157,44 @@ TEST_F(Hdf5, ASpallFileKnowsWhenItsHeadersAreDamaged) {
   }
 }
 
+TEST_F(Hdf5, DamageInTheOlderFormOfFilesIsRefusedWhereTheLibraryWouldCrash) {
+  const auto path = file("older.h5");
+  {
+    Hdf5File out = Hdf5File::create(path);
+    out.write("elements/radius", std::vector<double>{1, 2, 3});
+    for (const char* name : {"format", "name", "mixture"}) out.set_attribute("/", name, std::string(40, 'a'));
+    out.set_attribute("elements", "seed", 7.0);
+    out.close();
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  ASSERT_EQ(whole[8], 0) << "not the older form";
+  EXPECT_EQ(Hdf5File::open(path).number_attribute<double>("elements", "seed"), 7);
+  // The list of free places behind the names of "elements" made to run in a circle: HDF5 1.10 would follow it
+  // until no memory is left.
+  std::string circle = whole;
+  const std::size_t list = whole.find("radius") + 8;
+  ASSERT_EQ(circle[list], 1);
+  circle[list] = 16;
+  std::ofstream(path, std::ios::binary) << circle;
+  EXPECT_THAT(refusal([&] { Hdf5File::open(path); }), HasSubstr("so damaged that the library"));
+  int refused = 0, tried = 0;
+  for (std::size_t at = 9; at < whole.size(); at += 7) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(0xE1);
+    std::ofstream(path, std::ios::binary) << damaged;
+    ++tried;
+    refused += refusal([&] {
+                 const Hdf5File opened = Hdf5File::open(path);
+                 opened.has_attribute("/", "none");
+                 opened.text_attribute("/", "name");
+                 opened.number_attribute<double>("elements", "seed");
+                 opened.read<double>("elements/radius");
+               }) != "(accepted)";
+  }
+  EXPECT_GT(refused, tried / 50);
+}
+
 TEST_F(Hdf5, LeavesTheOldFileWhenWritingFails) {
   write_example(file("a.h5"));
   const auto before = dem::sha256_of_file(file("a.h5"));
