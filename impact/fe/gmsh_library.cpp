@@ -184,6 +184,10 @@ class Child {
   int pipe;
 };
 
+dem::InputError cannot_read(const std::string& file) {
+  return {file, "Gmsh cannot read it", "it must be a .msh mesh file that `gmsh` opens"};
+}
+
 /// In the parent: what the child sent.
 class Sent {
  public:
@@ -251,8 +255,11 @@ GmshContent read_by_gmsh(const std::string& file) {
   if (!end.crash.empty())
     throw dem::InputError(file, fmt::format("Gmsh cannot read it: its library crashes ({})", end.crash),
                           "it is damaged, or names a node that it does not hold: write it anew with Gmsh");
-  const dem::InputError refused(file, "Gmsh cannot read it", "it must be a .msh mesh file that `gmsh` opens");
-  if (!end.succeeded) throw refused;
+  if (!end.succeeded) throw cannot_read(file);
+  return gmsh_content(heard, file);
+}
+
+GmshContent gmsh_content(std::string_view heard, const std::string& file) {
   try {
     Sent sent(heard);
     GmshContent content;
@@ -268,9 +275,12 @@ GmshContent read_by_gmsh(const std::string& file) {
       const std::size_t tag = sent.number();
       content.other_solids.push_back({tag, sent.items<std::string>()});
     }
+    if (content.coordinates.size() != 3 * content.node_tags.size() ||
+        content.corner_tags.size() != 8 * content.hexahedron_tags.size())
+      throw Sent::CutShort{};
     return content;
   } catch (const Sent::CutShort&) {
-    throw refused;
+    throw cannot_read(file);
   }
 }
 

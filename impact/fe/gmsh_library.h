@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fe {
@@ -29,5 +30,8 @@ struct GmshContent {
 /// file, an element of a node that is not there for one. Throws InputError if it cannot read the file or
 /// crashes; RunError if this machine lacks the library, or can start no process.
 GmshContent read_by_gmsh(const std::string& file);
+
+/// From what that process sends, which may be anything if it is about to crash. Throws InputError.
+GmshContent gmsh_content(std::string_view sent, const std::string& file);
 
 }  // namespace fe

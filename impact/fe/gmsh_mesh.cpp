@@ -43,9 +43,12 @@ std::unordered_map<std::size_t, std::int32_t> add_nodes(const GmshContent& conte
 
 Mesh read_gmsh(const std::string& file, double unit) {
   check_file(file, unit);
+  return mesh_of(read_by_gmsh(file), file, unit);
+}
+
+Mesh mesh_of(const GmshContent& content, const std::string& file, double unit) {
   Mesh mesh;
   mesh.origin = file;
-  const GmshContent content = read_by_gmsh(file);
   if (!content.other_solids.empty()) {
     const GmshContent::Element& other = content.other_solids.front();
     throw dem::InputError(file, fmt::format("element {} is a {}", other.tag, other.type),

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "impact/fe/gmsh_library.h"
 #include "impact/fe/mesh.h"
 
 namespace fe {
@@ -11,5 +12,8 @@ namespace fe {
 /// InputError if the file cannot be read, holds a three-dimensional element other than the eight-node
 /// hexahedron, or fails `check`; RunError if the Gmsh library is missing on this machine.
 Mesh read_gmsh(const std::string& file, double unit = 1);
+
+/// The same from what the library found in it.
+Mesh mesh_of(const GmshContent& content, const std::string& file, double unit);
 
 }  // namespace fe

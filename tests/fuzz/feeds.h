@@ -14,6 +14,7 @@ void card(std::string_view bytes);            ///< a material card
 void curve(std::string_view bytes);           ///< a laboratory's CSV
 void stl(std::string_view bytes);             ///< an impactor's surface
 void gmsh(std::string_view bytes);            ///< a finite-element mesh
+void gmsh_content(std::string_view bytes);    ///< what Gmsh's library found in one
 void specimen(std::string_view bytes);        ///< a specimen (HDF5)
 void checkpoint(std::string_view bytes);      ///< the checkpoint of a test or an impact (HDF5)
 void journal(std::string_view bytes);         ///< a calibration's journal (HDF5)

@@ -20,6 +20,7 @@ const std::map<std::string, void (*)(std::string_view)> readers{{"calibrate_case
                                                                 {"curve", fuzz::curve},
                                                                 {"stl", fuzz::stl},
                                                                 {"gmsh", fuzz::gmsh},
+                                                                {"gmsh_content", fuzz::gmsh_content},
                                                                 {"specimen", fuzz::specimen},
                                                                 {"checkpoint", fuzz::checkpoint},
                                                                 {"journal", fuzz::journal}};
