@@ -160,7 +160,7 @@ int submit_study(const SlurmStudy& what, const SlurmChoices& choices, Console& c
   request.place.study = fs::absolute(what.file);
   request.place.output = fs::absolute(what.output);
   request.place.working = fs::current_path();
-  if (what.retry_failed) request.place.arguments.push_back("--retry-failed");
+  if (what.retry_failed) request.place.arguments.emplace_back("--retry-failed");
 
   const study::Submitted submitted = study::submit(request);
   for (const study::Submission& array : submitted.arrays)
