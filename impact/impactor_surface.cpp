@@ -52,7 +52,7 @@ Surface revolve(const std::vector<ProfilePoint>& profile) {
 Surface surface_of_one(const Box& box) {
   Surface surface;
   for (int corner = 0; corner < 8; ++corner)
-    surface.vertices.push_back(
+    surface.vertices.emplace_back(
         box.half_size.cwiseProduct(Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)));
   // Each face as a ring of corners, anticlockwise from outside: -z, +z, -y, +y, -x, +x.
   constexpr std::array<std::array<std::int32_t, 4>, 6> faces = {

@@ -75,11 +75,11 @@ coupling::Zone zone_of(const Scene& scene) {
   zone.centre = 0.5 * (around.zone_low + around.zone_high);
   zone.half_size = 0.5 * (around.zone_high - around.zone_low);
   zone.thickness = around.overlap;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t side = 0; side < 6; side += 2) {
+    const auto axis = static_cast<Eigen::Index>(side / 2);
     const double tolerance = 1e-6 * scene.size[axis];
-    zone.coupled[static_cast<std::size_t>(2 * axis)] = around.zone_low[axis] > tolerance;
-    zone.coupled[static_cast<std::size_t>(2 * axis + 1)] =
-        around.zone_high[axis] < scene.size[axis] - tolerance;
+    zone.coupled[side] = around.zone_low[axis] > tolerance;
+    zone.coupled[side + 1] = around.zone_high[axis] < scene.size[axis] - tolerance;
   }
   zone.validate();
   return zone;

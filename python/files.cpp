@@ -1,4 +1,5 @@
 // The HDF5 files that runs leave, read without h5py.
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -45,7 +46,7 @@ std::map<std::string, Dataset> read_datasets(const std::filesystem::path& path) 
   std::map<std::string, Dataset> all;
   const std::function<void(const std::string&)> walk = [&](const std::string& group) {
     for (const std::string& name : file.names_in(group.empty() ? "/" : group)) {
-      const std::string whole = group.empty() ? name : group + "/" + name;
+      const std::string whole = group.empty() ? name : fmt::format("{}/{}", group, name);
       Dataset dataset;
       try {
         dataset.shape = file.shape(whole);

@@ -29,8 +29,7 @@ std::string too_few_across(double smallest_side, double element_size) {
 }  // namespace
 
 std::string why_not_representative(const Specimen& specimen) {
-  if (const auto few = too_few_across(specimen.size.minCoeff(), specimen.element_size()); !few.empty())
-    return few;
+  if (auto few = too_few_across(specimen.size.minCoeff(), specimen.element_size()); !few.empty()) return few;
   const auto internal = internal_elements(specimen);
   const auto count = std::accumulate(internal.begin(), internal.end(), std::size_t{0});
   if (count < least_internal_elements)

@@ -51,7 +51,7 @@ Lattice box_lattice(const Vec3& size, std::size_t count) {
   for (std::int64_t z = 0; z < best[2]; ++z)
     for (std::int64_t y = 0; y < best[1]; ++y)
       for (std::int64_t x = 0; x < best[0]; ++x)
-        lattice.sites.push_back(
+        lattice.sites.emplace_back(
             Vec3(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, static_cast<double>(z) + 0.5)
                 .cwiseProduct(lattice.spacing));
   return lattice;

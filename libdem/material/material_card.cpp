@@ -132,7 +132,7 @@ std::string quantity_text(double value, Quantity kind) {
   for (const auto& [factor, unit] : units) {
     // Twelve digits rid "6 degree" of the dust of its conversion; the comparison of bits then decides.
     const double scaled = value / factor;
-    const std::string text = fmt::format("{:.12g} {}", scaled, unit);
+    std::string text = fmt::format("{:.12g} {}", scaled, unit);
     if (std::abs(scaled) >= 1 && parse_quantity(text, kind, "material card") == value) return text;
   }
   return fmt::format("{} {}", value, si_unit(kind));

@@ -8,7 +8,7 @@ StrainGauge::StrainGauge(std::span<const Vec3> initial_positions, std::vector<st
   for (const std::int32_t i : members) mean += initial_positions[static_cast<std::size_t>(i)];
   mean /= static_cast<double>(members.size());
   for (const std::int32_t i : members) {
-    offset.push_back(initial_positions[static_cast<std::size_t>(i)] - mean);
+    offset.emplace_back(initial_positions[static_cast<std::size_t>(i)] - mean);
     spread += offset.back().cwiseProduct(offset.back());
   }
 }

@@ -72,7 +72,7 @@ ContactDetector::Look ContactDetector::look(const Particles& particles, double a
   std::vector<Look> looks(parts);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (std::size_t part = 0; part < parts; ++part) {
-    Look mine;
+    Look& mine = looks[part];
     double rest = 0, fastest = 0;
     const std::size_t end = std::min(particles.count, (part + 1) * elements_per_part);
     for (std::size_t i = part * elements_per_part; i < end; ++i) {
@@ -85,7 +85,6 @@ ContactDetector::Look ContactDetector::look(const Particles& particles, double a
         mine.far.push_back(static_cast<std::int32_t>(i));
     }
     mine.farthest_of_rest = std::sqrt(rest), mine.fastest = std::sqrt(fastest);
-    looks[part] = std::move(mine);
   }
   Look all;
   for (const Look& one : looks) {

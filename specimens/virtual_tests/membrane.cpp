@@ -97,13 +97,13 @@ Membrane::Membrane(const specimens::Specimen& specimen, int loaded) : axis(loade
       std::vector<Vec3> places;
       for (std::size_t k = 0; k < count; ++k) {
         node.element[k] = by_distance[k].second;
-        places.push_back(specimen.centres[static_cast<std::size_t>(node.element[k])] - node.at_rest);
+        places.emplace_back(specimen.centres[static_cast<std::size_t>(node.element[k])] - node.at_rest);
       }
       for (std::size_t k = count; k < carriers; ++k) node.element[k] = node.element[0];  // without weight
       Vec3 across = Vec3::Zero();  // along the surface, across the axis
       across[(axis + 1) % 3] = -point.out_v, across[(axis + 2) % 3] = point.out_u;
       std::vector<Vec3> directions{across};
-      if (!low_end && !high_end) directions.push_back(Vec3::Unit(axis));
+      if (!low_end && !high_end) directions.emplace_back(Vec3::Unit(axis));
       const std::vector<double> weights = weights_of(places, directions);
       std::copy(weights.begin(), weights.end(), node.weight.begin());
       nodes.push_back(node);
