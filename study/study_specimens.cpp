@@ -28,8 +28,7 @@ dem::Vec3 parse_size(const TomlTable& table, const std::string& text, bool cylin
   if (size.size() != (cylinder ? 2U : 3U))
     table.fail("size", fmt::format("\"{}\" has {} length{}", text, size.size(), size.size() == 1 ? "" : "s"),
                remedy);
-  const dem::Vec3 sides =
-      cylinder ? dem::Vec3(size[0], size[0], size[1]) : dem::Vec3(size[0], size[1], size[2]);
+  dem::Vec3 sides = cylinder ? dem::Vec3(size[0], size[0], size[1]) : dem::Vec3(size[0], size[1], size[2]);
   for (int axis = 0; axis < 3; ++axis)
     if (!(sides[axis] > 1e-3 && sides[axis] < 100))
       table.fail("size", fmt::format("has a side of {:.4g} m", sides[axis]), "allowed: 1 mm to 100 m");
