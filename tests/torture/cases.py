@@ -113,9 +113,9 @@ def cases():
 
 def long_cases():
     """Real work: more than ten seconds each, 20,000 elements and more, a fit on two specimens."""
-    impact = IMPACT.replace("{duration}", "0.5 ms").replace("elements = 4000", "elements = 40000")
+    impact = IMPACT.replace("{duration}", "1 ms").replace("elements = 4000", "elements = 40000")
     fit = CALIBRATE.replace("elements = 1000", "elements = 4000").replace("fit_seeds = [1]", "fit_seeds = [1, 2]")
-    study = STUDY.replace("elements = 1100", "elements = 6000")
+    study = STUDY.replace("elements = 1100", "elements = 40000")
     return [Case("calibrate", {"case.toml": fit}, ["calibrate", "case.toml", "--frames", "0"], done=(0, 4), interval=None),
             Case("impact", {"card.toml": CARD, "slab.toml": impact}, ["impact", "slab.toml"], interval="1", usual=120),
             Case("study", {"card.toml": CARD.replace("36 MPa", "3.6 MPa"), "study.toml": study},
