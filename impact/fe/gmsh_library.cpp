@@ -79,7 +79,6 @@ class Child {
 
   void read(const std::string& file) {
     int error = 0;
-    // Not gmshOpen: after a file that it could not read it is locked, and reads nothing more.
     gmsh.merge(file.c_str(), &error);
     leave_if(error != 0);
     send_nodes();

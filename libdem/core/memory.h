@@ -10,7 +10,8 @@ namespace dem {
 double available_memory();
 
 /// Throws InputError "where: what needs about ... GB of memory, ... GB are free; remedy" if `bytes` are more
-/// than available_memory(). Without it the system would kill the run later, without a word.
+/// than available_memory(), and more than 64 MB. Without it the system would kill the run later, without a
+/// word.
 void require_memory(double bytes, const std::string& where, const std::string& what);
 
 }  // namespace dem

@@ -170,6 +170,7 @@ TEST_F(Hdf5, DamageInTheOlderFormOfFilesIsRefusedWhereTheLibraryWouldCrash) {
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   ASSERT_EQ(whole[8], 0) << "not the older form";
   EXPECT_EQ(Hdf5File::open(path).number_attribute<double>("elements", "seed"), 7);
+#if !defined(SPALL_SANITIZED)  // where the child's memory cannot be limited
   // The list of free places behind the names of "elements" made to run in a circle: HDF5 1.10 would follow it
   // until no memory is left.
   std::string circle = whole;
@@ -178,6 +179,7 @@ TEST_F(Hdf5, DamageInTheOlderFormOfFilesIsRefusedWhereTheLibraryWouldCrash) {
   circle[list] = 16;
   std::ofstream(path, std::ios::binary) << circle;
   EXPECT_THAT(refusal([&] { Hdf5File::open(path); }), HasSubstr("so damaged that the library"));
+#endif
   int refused = 0, tried = 0;
   for (std::size_t at = 9; at < whole.size(); at += 7) {
     std::string damaged = whole;
