@@ -171,7 +171,7 @@ TEST_F(Calibrate, GoesOnAfterASignalToTheSameCard) {
   ::setenv("SPALL_CHECKPOINT_SECONDS", "0", 1);  // so that its first round can be seen
   const pid_t child = start({"calibrate", "case.toml", "-o", "out"});
   ::unsetenv("SPALL_CHECKPOINT_SECONDS");
-  for (int k = 0; k < 200 && !std::filesystem::exists(folder / "out/checkpoint.h5"); ++k)
+  for (int k = 0; k < 2400 && !std::filesystem::exists(folder / "out/checkpoint.h5"); ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ::kill(child, SIGINT);
   const auto stopped = wait_for(child);

@@ -1,6 +1,7 @@
 // A run over the folder of a finished one: what the earlier run ended with goes before anything new is there,
-// and
-// --resume leaves what is finished alone.
+// and --resume leaves what is finished alone.
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -57,6 +58,10 @@ class Rerun : public cli::Command, public testing::WithParamInterface<Verb> {
     return all;
   }
 
+  bool any_is_there(const std::vector<std::string>& names) const {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return fs::exists(folder / "out" / name); });
+  }
   /// Done, with whatever the fit says of its tolerances.
   void expect_done(const cli::Outcome& outcome) const {
     EXPECT_THAT(outcome.code, testing::AnyOf(0, 4)) << outcome.err;
@@ -68,19 +73,19 @@ class Rerun : public cli::Command, public testing::WithParamInterface<Verb> {
 TEST_P(Rerun, KilledMidwayItLeavesNothingOfTheEarlierResultAndResumeMakesItAgain) {
   expect_done(spall(words({"--quiet"})));
   fs::copy(folder / "out", folder / "earlier", fs::copy_options::recursive);
+  std::vector<std::string> finals = GetParam().ends_with;
+  finals.insert(finals.end(), {"result.json", "run.json", "report.html"});
   int code = 0;
   for (int turn = 0; turn < 5 && code != 128 + SIGKILL; ++turn) {  // a busy machine may look too late
     if (GetParam().name == "study") fs::remove_all(folder / "out/tasks");
     const pid_t child = start(words({"--quiet"}));
-    for (int k = 0; k < 2000 && fs::exists(folder / "out/result.json"); ++k)
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (any_is_there(finals) && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ::kill(child, SIGKILL);
     code = wait_for(child).code;
   }
   ASSERT_EQ(code, 128 + SIGKILL);
-  std::vector<std::string> finals = GetParam().ends_with;
-  finals.insert(finals.end(), {"result.json", "run.json", "report.html"});
   for (const std::string& name : finals) EXPECT_THAT(files(), Not(Contains("out/" + name)));
 
   expect_done(spall(words({"--resume", "--quiet"})));

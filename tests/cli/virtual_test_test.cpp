@@ -230,7 +230,7 @@ TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
 
   const pid_t child = start(command);
   // Its first line of progress says that it is running.
-  for (int k = 0; k < 400 && read(".said/err").find("steps") == std::string::npos; ++k)
+  for (int k = 0; k < 2400 && read(".said/err").find("steps") == std::string::npos; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   ::kill(child, SIGINT);
