@@ -75,12 +75,12 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
   if (options.resume && folder.is_finished())
     return leave_as_it_is(folder, console).value("complete", false) ? done : tolerance_missed;
   calibrate::TestJournal journal(folder.file("checkpoint.h5"), options.resume);
-  folder.remove_results({"card.toml", "curves.csv"});
   if (options.resume && journal.size() == 0)
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
                                folder.file("checkpoint.h5").string()));
 
-  const calibrate::CalibrationResult found = run(options, invocation, wanted, journal, folder, console);
+  const calibrate::CalibrationResult found = folder.compute_anew(
+      {"card.toml", "curves.csv"}, [&] { return run(options, invocation, wanted, journal, folder, console); });
   const nlohmann::ordered_json result = result_of(wanted, found);
   dem::write_file_atomically(folder.file("card.toml"), dem::to_toml(found.card));
   dem::write_file_atomically(folder.file("curves.csv"), curves_csv(wanted, found));

@@ -107,8 +107,9 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
     leave_as_it_is(folder, console);
     return done;
   }
-  folder.remove_results({"curves.csv", "history.h5", "fragments.csv"});
-  const impact::ImpactResult found = run_or_stop(options, invocation, scene, folder, console);
+  const impact::ImpactResult found = folder.compute_anew({"curves.csv", "history.h5", "fragments.csv"}, [&] {
+    return run_or_stop(options, invocation, scene, folder, console);
+  });
 
   const nlohmann::ordered_json result = impact::result_of(scene, found, options.common.thread_count());
   dem::write_file_atomically(folder.file("curves.csv"), impact::curves_csv(scene, found.history));

@@ -56,11 +56,39 @@ std::vector<std::string> what_is_asked(const std::vector<std::string>& arguments
   return words;
 }
 
+dem::RunError cannot_be_removed(const std::filesystem::path& file, const std::error_code& error) {
+  return dem::RunError(fmt::format("{}: cannot be removed ({})", file.string(), error.message()));
+}
+
 }  // namespace
 
 void remove_if_empty(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_empty(folder, ignored)) std::filesystem::remove(folder, ignored);
+}
+
+EarlierResults::EarlierResults(const std::vector<std::filesystem::path>& earlier) {
+  for (const std::filesystem::path& file : earlier) {
+    std::error_code error;
+    std::filesystem::rename(file, dem::scratch_path(file), error);
+    if (!error) {
+      files.push_back(file);
+    } else if (error != std::errc::no_such_file_or_directory) {
+      put_back();
+      throw cannot_be_removed(file, error);
+    }
+  }
+}
+
+EarlierResults::~EarlierResults() {
+  std::error_code ignored;  // what was put back has no such name; what stays is swept by the next run
+  for (const std::filesystem::path& file : files) std::filesystem::remove(dem::scratch_path(file), ignored);
+}
+
+void EarlierResults::put_back() const noexcept {
+  std::error_code ignored;
+  for (auto file = files.rbegin(); file != files.rend(); ++file)
+    std::filesystem::rename(dem::scratch_path(*file), *file, ignored);
 }
 
 RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)
@@ -94,14 +122,19 @@ bool RunFolder::is_finished() const {
   }
 }
 
-void RunFolder::remove_results(const std::vector<std::string>& others) const {
-  // result.json first: where it is, everything else is there too.
+std::vector<std::filesystem::path> RunFolder::results(const std::vector<std::string>& others) const {
   std::vector<std::string> names{"result.json", "run.json", "report.html"};
   names.insert(names.end(), others.begin(), others.end());
-  for (const std::string& name : names) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names)
+    if (!is_input(file(name))) files.push_back(file(name));
+  return files;
+}
+
+void RunFolder::remove_results(const std::vector<std::string>& others) const {
+  for (const std::filesystem::path& result : results(others)) {
     std::error_code error;
-    if (!is_input(file(name)) && !std::filesystem::remove(file(name), error) && error)
-      throw dem::RunError(fmt::format("{}: cannot be removed ({})", file(name).string(), error.message()));
+    if (!std::filesystem::remove(result, error) && error) throw cannot_be_removed(result, error);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "libdem/core/error.h"
 
 namespace app {
 
@@ -18,6 +19,21 @@ std::string command_to_go_on(const Invocation& invocation);
 
 /// Takes back a folder that a refused run has made; leaves one alone that holds something.
 void remove_if_empty(const std::filesystem::path& folder);
+
+/// Files of an earlier run under hidden names, in the order given; removed in the end.
+class EarlierResults {
+ public:
+  /// Throws RunError, and leaves all where they were, if one cannot be renamed.
+  explicit EarlierResults(const std::vector<std::filesystem::path>& files);
+  ~EarlierResults();
+  EarlierResults(const EarlierResults&) = delete;
+  EarlierResults& operator=(const EarlierResults&) = delete;
+  /// Gives them their names again, the last first.
+  void put_back() const noexcept;
+
+ private:
+  std::vector<std::filesystem::path> files;
+};
 
 /// The output folder of one run.
 class RunFolder {
@@ -35,9 +51,21 @@ class RunFolder {
   /// and on how many threads. Call it once all inputs are added.
   bool is_finished() const;
   /// Removes what an earlier run ended with: result.json, run.json, report.html and the others that are named,
-  /// but for this run's inputs. Whoever computes calls it before anything is written, so that a run that is
-  /// killed leaves no result of an earlier one. Throws RunError.
+  /// but for this run's inputs. Whoever computes calls it, or `compute_anew`, before anything is written, so
+  /// that a run that is killed leaves no result of an earlier one. Throws RunError.
   void remove_results(const std::vector<std::string>& others) const;
+  /// What `compute` returns; the same files are out of its way. They are removed when it ends, but stand in
+  /// their places again if it throws InputError: what is refused costs nobody an earlier result.
+  template <class Compute>
+  auto compute_anew(const std::vector<std::string>& others, const Compute& compute) const {
+    const EarlierResults earlier(results(others));
+    try {
+      return compute();
+    } catch (const dem::InputError&) {
+      earlier.put_back();
+      throw;
+    }
+  }
 
   const std::filesystem::path& path() const { return folder; }
   std::filesystem::path file(const std::string& name) const { return folder / name; }
@@ -47,6 +75,8 @@ class RunFolder {
 
  private:
   bool is_input(const std::filesystem::path& file) const;
+  /// result.json first: where it is, everything else is there too.
+  std::vector<std::filesystem::path> results(const std::vector<std::string>& others) const;
 
   std::filesystem::path folder;
   const Invocation& invocation;

@@ -162,8 +162,9 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
     leave_as_it_is(inputs.folder, console);
     return done;
   }
-  inputs.folder.remove_results({"curves.csv", "fields.h5", "links.h5"});
-  const virtual_tests::TestOutcome found = run_or_stop(command, invocation, inputs, options, console);
+  const virtual_tests::TestOutcome found =
+      inputs.folder.compute_anew({"curves.csv", "fields.h5", "links.h5"},
+                                 [&] { return run_or_stop(command, invocation, inputs, options, console); });
   const specimens::Specimen& tested = found.tested ? *found.tested : inputs.specimen;
   if (!found.curve.empty())
     dem::write_file_atomically(inputs.folder.file("curves.csv"), virtual_tests::to_csv(found.curve));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -172,6 +173,21 @@ TEST_F(Impact, WhatShowsOnlyOncePackedIsRefusedToo) {
   // Too thin a support to hold the centre of any element.
   write("slab.toml", replaced(slab, "high = \"0.03,0.24,0.08 m\"", "high = \"0.00001,0.24,0.08 m\""));
   EXPECT_THAT(refusal(2, impact("out", {"--quiet"})), HasSubstr("support \"low\""));
+}
+
+TEST_F(Impact, WhatShowsOnlyOncePackedCostsNoEarlierResult) {
+  ASSERT_EQ(spall(impact("out", {"--quiet"})).code, 0);
+  const auto contents = [&] {
+    std::map<std::string, std::string> found;
+    for (const std::string& name : files())
+      if (name.starts_with("out/") && std::filesystem::is_regular_file(folder / name)) found[name] = read(name);
+    return found;
+  };
+  const auto before = contents();
+  ASSERT_TRUE(before.contains("out/result.json"));
+  write("slab.toml", replaced(slab, "high = \"0.03,0.24,0.08 m\"", "high = \"0.00001,0.24,0.08 m\""));
+  EXPECT_THAT(refusal(2, impact("out", {"--quiet"})), HasSubstr("support \"low\""));
+  EXPECT_TRUE(contents() == before);
 }
 
 TEST_F(Impact, AFolderThatCannotBeWrittenIsExitCode1) {

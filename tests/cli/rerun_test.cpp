@@ -117,5 +117,21 @@ TEST_P(Rerun, ResumeOfAFinishedRunLeavesItAsItIs) {
   EXPECT_NE(fs::last_write_time(folder / "out/result.json"), time);
 }
 
+TEST_P(Rerun, WhatIsRefusedLeavesTheEarlierResultInItsPlace) {
+  if (GetParam().name == "study") GTEST_SKIP() << "a damaged checkpoint costs a study no more than time";
+  expect_done(spall(words({"--quiet"})));
+  for (const char* name : {"case.toml", "slab.toml", "card.toml"}) write(name, read(name) + "\n# changed\n");
+  write("out/checkpoint.h5", "no checkpoint");
+  fs::copy(folder / "out", folder / "earlier", fs::copy_options::recursive);
+  EXPECT_THAT(refusal(2, words({"--resume", "--quiet"})), HasSubstr("checkpoint.h5"));
+  for (const auto& entry : fs::directory_iterator(folder / "earlier")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file()) {
+      EXPECT_TRUE(read("out/" + name) == read("earlier/" + name)) << name;
+    }
+  }
+  EXPECT_THAT(files(), testing::Each(Not(testing::EndsWith(".part"))));
+}
+
 INSTANTIATE_TEST_SUITE_P(Verbs, Rerun, testing::ValuesIn(verbs),
                          [](const auto& verb) { return verb.param.name; });
