@@ -72,7 +72,7 @@ EarlierResults::EarlierResults(const std::vector<std::filesystem::path>& earlier
     std::error_code error;
     std::filesystem::rename(file, dem::scratch_path(file), error);
     if (!error) {
-      files.push_back(file);
+      files.insert(files.begin(), file);
     } else if (error != std::errc::no_such_file_or_directory) {
       put_back();
       throw cannot_be_removed(file, error);
@@ -81,14 +81,15 @@ EarlierResults::EarlierResults(const std::vector<std::filesystem::path>& earlier
 }
 
 EarlierResults::~EarlierResults() {
-  std::error_code ignored;  // what was put back has no such name; what stays is swept by the next run
+  std::error_code ignored;  // what stays is swept by the next run
   for (const std::filesystem::path& file : files) std::filesystem::remove(dem::scratch_path(file), ignored);
 }
 
-void EarlierResults::put_back() const noexcept {
+void EarlierResults::put_back() noexcept {
   std::error_code ignored;
-  for (auto file = files.rbegin(); file != files.rend(); ++file)
-    std::filesystem::rename(dem::scratch_path(*file), *file, ignored);
+  for (const std::filesystem::path& file : files)
+    std::filesystem::rename(dem::scratch_path(file), file, ignored);
+  files.clear();
 }
 
 RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)

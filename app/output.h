@@ -29,10 +29,10 @@ class EarlierResults {
   EarlierResults(const EarlierResults&) = delete;
   EarlierResults& operator=(const EarlierResults&) = delete;
   /// Gives them their names again, the last first.
-  void put_back() const noexcept;
+  void put_back() noexcept;
 
  private:
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files;  ///< the last first
 };
 
 /// The output folder of one run.
@@ -58,7 +58,7 @@ class RunFolder {
   /// their places again if it throws InputError: what is refused costs nobody an earlier result.
   template <class Compute>
   auto compute_anew(const std::vector<std::string>& others, const Compute& compute) const {
-    const EarlierResults earlier(results(others));
+    EarlierResults earlier(results(others));
     try {
       return compute();
     } catch (const dem::InputError&) {
