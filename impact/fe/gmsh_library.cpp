@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 #include <type_traits>
 
@@ -24,6 +25,7 @@ constexpr int eight_node_hexahedron = 5;  // Gmsh's number of the type
 struct Gmsh {
   decltype(&gmshInitialize) initialize = nullptr;
   decltype(&gmshFree) release = nullptr;
+  decltype(&gmshClear) forget = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
   decltype(&gmshMerge) merge = nullptr;
   decltype(&gmshModelMeshGetNodes) nodes = nullptr;
@@ -50,6 +52,7 @@ struct Gmsh {
     };
     find(initialize, "gmshInitialize");
     find(release, "gmshFree");
+    find(forget, "gmshClear");
     find(set_number, "gmshOptionSetNumber");
     find(merge, "gmshMerge");
     find(nodes, "gmshModelMeshGetNodes");
@@ -79,6 +82,7 @@ class Child {
 
   void read(const std::string& file) {
     int error = 0;
+    gmsh.forget(&error);
     gmsh.merge(file.c_str(), &error);
     leave_if(error != 0);
     send_nodes();
@@ -217,15 +221,31 @@ class Sent {
   std::string_view rest;
 };
 
+const Gmsh& gmsh_library() {
+  static const Gmsh gmsh;
+  return gmsh;
+}
+
+/// A few bytes can claim a thousand million nodes, for which Gmsh makes room.
+dem::ChildLimits limits_for(const std::string& file) {
+  constexpr std::uint64_t least_memory = std::uint64_t{1} << 30, memory_per_byte = 50;
+  constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000;
+  std::error_code unknown;
+  const std::uint64_t size = std::filesystem::file_size(file, unknown);
+  if (unknown) return {};
+  return {least_memory + memory_per_byte * size, least_seconds + size / bytes_per_second};
+}
+
 /// Starts the child and waits for its end; what it sent.
-std::string hear_child(const Gmsh& gmsh, const std::string& file, dem::ChildEnd& end) {
+std::string hear_child(const std::string& file, dem::ChildEnd& end) {
+  gmsh_library();  // loaded here, once
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw dem::RunError(
         fmt::format("{}: cannot make a pipe to read it through: {}", file, std::strerror(errno)));
   pid_t child = 0;
   try {
-    child = dem::start_child([&] { Child(gmsh, ends[1]).read(file); });
+    child = dem::start_child([&] { send_by_gmsh(file, ends[1]); }, limits_for(file));
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);
@@ -247,10 +267,11 @@ std::string hear_child(const Gmsh& gmsh, const std::string& file, dem::ChildEnd&
 
 }  // namespace
 
+void send_by_gmsh(const std::string& file, int out) { Child(gmsh_library(), out).read(file); }
+
 GmshContent read_by_gmsh(const std::string& file) {
-  static const Gmsh gmsh;
   dem::ChildEnd end;
-  const std::string heard = hear_child(gmsh, file, end);
+  const std::string heard = hear_child(file, end);
   if (!end.crash.empty())
     throw dem::InputError(file, fmt::format("Gmsh cannot read it: its library crashes ({})", end.crash),
                           "it is damaged, or names a node that it does not hold: write it anew with Gmsh");

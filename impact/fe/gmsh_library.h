@@ -31,6 +31,10 @@ struct GmshContent {
 /// crashes; RunError if this machine lacks the library, or can start no process.
 GmshContent read_by_gmsh(const std::string& file);
 
+/// What that process does: reads the file and writes what it holds to the file descriptor `out`. Throws, or
+/// crashes, if Gmsh cannot read it.
+void send_by_gmsh(const std::string& file, int out);
+
 /// From what that process sends, which may be anything if it is about to crash. Throws InputError.
 GmshContent gmsh_content(std::string_view sent, const std::string& file);
 

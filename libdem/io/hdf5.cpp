@@ -118,21 +118,21 @@ struct Hdf5File::Implementation {
   }
 
   Handle dataset(const std::string& name) const {
-    if (!exists(name)) wrong("dataset " + name, "is missing", make_again);
     Handle found(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!found) wrong("dataset " + name, "cannot be opened as a dataset", make_again);
+    if (!found)
+      wrong("dataset " + name, exists(name) ? "cannot be opened as a dataset" : "is missing", make_again);
     return found;
   }
 
   Handle object(const std::string& name) const {
-    Handle found(exists(name) ? H5Oopen(file, name.c_str(), H5P_DEFAULT) : -1, H5Oclose);
+    Handle found(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
     if (!found) wrong(name, "is missing", make_again);
     return found;
   }
 
   Handle attribute(const std::string& of, const std::string& name) const {
-    const Handle owner = object(of);
-    Handle found(H5Aexists(owner, name.c_str()) > 0 ? H5Aopen(owner, name.c_str(), H5P_DEFAULT) : -1, H5Aclose);
+    Handle found(H5Aopen_by_name(file, of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!found && !exists(of)) wrong(of, "is missing", make_again);
     if (!found) wrong(fmt::format("attribute {} of {}", name, of), "is missing", make_again);
     return found;
   }
@@ -216,6 +216,9 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, bool checked) {
   const Handle how(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_obj_track_times(how, false);  // the same content gives the same bytes
   if (checked) H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  // Written aside, under a name that nobody else knows: a lock would keep nobody out, but a process started
+  // meanwhile inherits it, and the finished file would be refused until that process ends.
+  H5Pset_file_locking(access, false, true);
   errno = 0;
   Handle file(H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, how, access), H5Fclose);
   if (!file) {
@@ -355,7 +358,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
   const Lock lock;
-  return self->exists(object) && H5Aexists(self->object(object), name.c_str()) > 0;
+  return H5Aexists_by_name(self->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {

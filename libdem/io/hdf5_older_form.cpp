@@ -2,7 +2,6 @@
 
 #include <hdf5.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <fstream>
@@ -54,7 +53,8 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* what, void*) 
 
 /// A damaged list that runs in a circle makes the library ask for memory until there is none, or for ever.
 struct TooMuchMemory {};
-constexpr rlim_t most_memory = rlim_t{2} << 30, most_seconds = 300;
+constexpr rlim_t most_memory = rlim_t{2} << 30;
+constexpr ChildLimits limits{most_memory + most_bytes, 300};
 
 rlim_t peak_memory() {
   rusage used{};
@@ -62,18 +62,7 @@ rlim_t peak_memory() {
   return static_cast<rlim_t>(used.ru_maxrss) * 1024;
 }
 
-void limit_resources() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t now = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
-  const rlimit memory{now + most_memory + most_bytes, now + most_memory + most_bytes};
-  const rlimit seconds{most_seconds, most_seconds};
-  if (pages > 0) ::setrlimit(RLIMIT_AS, &memory);
-  ::setrlimit(RLIMIT_CPU, &seconds);
-}
-
 void read_whole(const std::string& file) {
-  limit_resources();
   const rlim_t before = peak_memory();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -94,7 +83,7 @@ bool of_newer_form(const std::filesystem::path& file) {
 
 bool survives_older_form(const std::filesystem::path& file) {
   if (of_newer_form(file)) return true;
-  return wait_for_child(start_child([&] { read_whole(file.string()); })).succeeded;
+  return wait_for_child(start_child([&] { read_whole(file.string()); }, limits)).succeeded;
 }
 
 }  // namespace dem

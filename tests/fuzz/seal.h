@@ -9,9 +9,9 @@
 
 namespace fuzz {
 
-/// Lets `read` read the file that `bytes` are. If it is refused for its sum alone, as any change of a value is,
-/// the right sum is put in the place of the wrong one and the file read once more: what is behind the check is
-/// reached.
+/// Lets `read` read the file that `bytes` are. If it is refused for its sum alone, as any change of a value is
+/// (the fuzzers' build does not insist on it), the right sum is put in the place of the wrong one and the file
+/// read once more: what is behind the check is reached.
 template <class Read>
 void read_sealed(std::string_view bytes, const char* name, Read&& read) {
   std::optional<dem::WrongSum> wrong;

@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 
+#include "libdem/core/child_process.h"
 #include "libdem/core/error.h"
 #include "libdem/core/sha256.h"
 #include "libdem/io/hdf5.h"
@@ -205,4 +209,14 @@ TEST_F(Hdf5, LeavesTheOldFileWhenWritingFails) {
                dem::RunError);
   EXPECT_THROW(Hdf5File::create(file("nowhere/a.h5")), dem::RunError);
   EXPECT_EQ(dem::sha256_of_file(file("a.h5")), before);
+}
+
+TEST_F(Hdf5, AProcessStartedWhileAFileIsWrittenDoesNotKeepItFromReaders) {
+  Hdf5File out = Hdf5File::create(file("a.h5"), true);
+  out.write("values", std::vector<double>{1, 2, 3});
+  const pid_t child = dem::start_child([] { ::pause(); });
+  out.close();
+  EXPECT_NO_THROW(Hdf5File::open(file("a.h5")));
+  ::kill(child, SIGKILL);
+  EXPECT_FALSE(dem::wait_for_child(child).crash.empty());
 }
