@@ -71,6 +71,7 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
   for (const std::filesystem::path& input : wanted.inputs) folder.add_input(input);
   for (const std::uint64_t seed : wanted.fit_seeds) folder.add_seed(seed);
   for (const std::uint64_t seed : wanted.check_seeds) folder.add_seed(seed);
+  folder.claim();
   Console console(options.common);
   if (options.resume && folder.is_finished())
     return leave_as_it_is(folder, console).value("complete", false) ? done : tolerance_missed;
@@ -79,8 +80,9 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
                                folder.file("checkpoint.h5").string()));
 
-  const calibrate::CalibrationResult found = folder.compute_anew(
-      {"card.toml", "curves.csv"}, [&] { return run(options, invocation, wanted, journal, folder, console); });
+  const calibrate::CalibrationResult found = folder.compute_anew({"card.toml", "curves.csv"}, false, [&] {
+    return run(options, invocation, wanted, journal, folder, console);
+  });
   const nlohmann::ordered_json result = result_of(wanted, found);
   dem::write_file_atomically(folder.file("card.toml"), dem::to_toml(found.card));
   dem::write_file_atomically(folder.file("curves.csv"), curves_csv(wanted, found));
@@ -91,7 +93,7 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
   tell(console, found);
   console.say(fmt::format("card:   {}", folder.file("card.toml").string()));
   console.say(fmt::format("report: {}", folder.file("report.html").string()));
-  console.result(result.dump(2));
+  console.result(result);
   return found.complete() ? done : tolerance_missed;
 }
 

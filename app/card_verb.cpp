@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/console.h"
+#include "app/streams.h"
 #include "app/verbs.h"
 #include "app/version.h"
 #include "exchange/export.h"
@@ -47,7 +48,7 @@ int show(const CardOptions& options) {
                           link.shear_ratio, link.normal_modulus / 1e9));
   Json json = to_json(card);
   json["link"] = {{"shear_ratio", link.shear_ratio}, {"normal_modulus", link.normal_modulus}};
-  console.result(json.dump(2));
+  console.result(json);
   return done;
 }
 
@@ -55,7 +56,7 @@ int check(const CardOptions& options) {
   const dem::MaterialCard card = dem::read_card(options.card);
   Console console(options.common);
   console.say(fmt::format("{}: a valid material card ({})", options.card, card.name));
-  console.result(Json{{"card", options.card}, {"valid", true}}.dump(2));
+  console.result(Json{{"card", options.card}, {"valid", true}});
   return done;
 }
 
@@ -63,16 +64,16 @@ int check(const CardOptions& options) {
 int deliver(const CardOptions& options, const std::string& text, const Json& json) {
   if (options.output.empty()) {
     if (options.common.json)
-      fmt::print("{}\n", json.dump(2));
+      Console(options.common).result(json);
     else
-      fmt::print("{}", text);
+      put(stdout, text);
     return done;
   }
   require_writable_file(options.output);
   dem::write_file_atomically(options.output, text);
   Console console(options.common);
   console.say(fmt::format("wrote {}", options.output));
-  console.result(Json{{"output", options.output}}.dump(2));
+  console.result(Json{{"output", options.output}});
   return done;
 }
 
@@ -94,12 +95,11 @@ int export_card(const CardOptions& options) {
   Console console(options.common);
   if (options.output.empty()) {
     if (options.common.json && format == exchange::Format::csv)
-      fmt::print("{}\n", to_json(card).dump(2));
+      console.result(to_json(card));
     else if (options.common.json)
-      fmt::print("{}\n",
-                 Json{{"format", options.format}, {"text", exported.text}, {"lost", exported.lost}}.dump(2));
+      console.result(Json{{"format", options.format}, {"text", exported.text}, {"lost", exported.lost}});
     else
-      fmt::print("{}", exported.text);
+      put(stdout, exported.text);
     return done;
   }
   require_writable_file(options.output);
@@ -117,7 +117,7 @@ int export_card(const CardOptions& options) {
   console.say(fmt::format("wrote {}", options.output));
   if (!exported.lost.empty()) console.say(fmt::format("What {} does otherwise than the card:", options.format));
   for (const std::string& loss : exported.lost) console.say("- " + loss);
-  console.result(Json{{"output", options.output}, {"beside", files}, {"lost", exported.lost}}.dump(2));
+  console.result(Json{{"output", options.output}, {"beside", files}, {"lost", exported.lost}});
   return done;
 }
 

@@ -95,12 +95,12 @@ std::string explain(const CLI::App& root, const CLI::ParseError& error,
   return fmt::format("{}: {}; see {} --help", path, error.what(), path);
 }
 
-void require_writable_file(const std::string& file) {
+void require_writable_file(const std::string& file, bool by_a_library) {
   const std::filesystem::path path(file);
   std::error_code ignored;
   if (!path.has_filename() || std::filesystem::is_directory(path, ignored))
     throw dem::RunError(fmt::format("{}: this is a folder; give the name of a file", file));
-  dem::require_writable_folder(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
+  dem::require_writable_file(path, by_a_library);
 }
 
 }  // namespace app

@@ -44,9 +44,9 @@ CLI::Validator number_between(double low, double high);
 std::string explain(const CLI::App& root, const CLI::ParseError& error,
                     const std::vector<std::string>& arguments);
 
-/// A path for -o: the file itself must not be a folder, and its folder must be writable. Throws RunError. Call
-/// it before any computing.
-void require_writable_file(const std::string& file);
+/// A path for -o: the file itself must not be a folder, nor, if a library writes it, a device or a pipe, and
+/// its folder must be writable. Throws RunError. Call it before any computing.
+void require_writable_file(const std::string& file, bool by_a_library = false);
 
 /// What a room below refuses gets the option in front from which it came.
 template <class Action>

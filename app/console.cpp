@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/streams.h"
 
 namespace app {
 namespace {
@@ -81,34 +83,35 @@ void Console::show(const dem::Progress& progress) {
   const double elapsed = seconds(now - stage_start);
   const double rate = elapsed > 0 ? (progress.done - done_at_start) / elapsed : 0;
   if (terminal) {
-    fmt::print(stderr, "\r\033[K{}", progress_line(progress, rate, terminal_width()));
+    put(stderr, "\r\033[K" + progress_line(progress, rate, terminal_width()));
     line_shown = true;
   } else {
-    fmt::print(stderr, "{}\n", progress_line(progress, rate, 200));
+    put(stderr, progress_line(progress, rate, 200) + "\n");
   }
   std::fflush(stderr);
 }
 
 void Console::clear_line() {
-  if (line_shown) fmt::print(stderr, "\r\033[K");
+  if (line_shown) put(stderr, "\r\033[K");
   line_shown = false;
 }
 
 void Console::say(const std::string& line) {
   if (quiet || json) return;
   clear_line();
-  fmt::print("{}\n", line);
+  put(stdout, line + "\n");
 }
 
-void Console::result(const std::string& text) {
+void Console::result(const nlohmann::ordered_json& result) {
   if (!json) return;
-  fmt::print("{}\n", text);
+  // Bytes of a path that are no UTF-8 must not make a finished run fail.
+  put(stdout, result.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void Console::remark(const std::string& line) {
   if (quiet) return;
   clear_line();
-  fmt::print(stderr, "{}\n", line);
+  put(stderr, line + "\n");
 }
 
 }  // namespace app

@@ -1,6 +1,7 @@
 // What people see while a job runs. Progress and remarks go to standard error, results to standard output.
 #pragma once
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/command.h"
@@ -28,8 +29,8 @@ class Console {
   dem::ProgressCallback progress();
   /// A line of the result, on standard output; nothing with --quiet or --json.
   void say(const std::string& line);
-  /// The result as JSON text, on standard output, if --json asked for it.
-  void result(const std::string& json);
+  /// The result as JSON, on standard output, if --json asked for it.
+  void result(const nlohmann::ordered_json& result);
   /// A line that --json does not silence (but --quiet does), on standard error.
   void remark(const std::string& line);
 

@@ -16,7 +16,7 @@ nlohmann::ordered_json leave_as_it_is(const RunFolder& folder, Console& console)
                              folder.file("result.json").string()));
   std::ifstream in(folder.file("result.json"));
   nlohmann::ordered_json result = nlohmann::ordered_json::parse(in);
-  console.result(result.dump(2));
+  console.result(result);
   return result;
 }
 

@@ -102,14 +102,16 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
   RunFolder folder(options.output, invocation, options.common);
   for (const std::filesystem::path& input : scene.inputs) folder.add_input(input);
   folder.add_seed(scene.seed);
+  folder.claim();
   Console console(options.common);
   if (options.resume && folder.is_finished()) {
     leave_as_it_is(folder, console);
     return done;
   }
-  const impact::ImpactResult found = folder.compute_anew({"curves.csv", "history.h5", "fragments.csv"}, [&] {
-    return run_or_stop(options, invocation, scene, folder, console);
-  });
+  const bool goes_on = options.resume && std::filesystem::exists(folder.file("checkpoint.h5"));
+  const impact::ImpactResult found =
+      folder.compute_anew({"curves.csv", "history.h5", "fragments.csv"}, goes_on,
+                          [&] { return run_or_stop(options, invocation, scene, folder, console); });
 
   const nlohmann::ordered_json result = impact::result_of(scene, found, options.common.thread_count());
   dem::write_file_atomically(folder.file("curves.csv"), impact::curves_csv(scene, found.history));
@@ -122,7 +124,7 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
     console.say(fmt::format("frames: {} and others beside it, for ParaView",
                             (folder.file("frames") / "elements.hdf.series").string()));
   console.say(fmt::format("wrote {} and report.html", folder.file("result.json").string()));
-  console.result(result.dump(2));
+  console.result(result);
   std::error_code ignored;  // a finished run needs none; one that stays does no harm
   std::filesystem::remove(folder.file("checkpoint.h5"), ignored);
   return done;

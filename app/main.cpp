@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <string_view>
 
 #include "app/output.h"
+#include "app/streams.h"
 #include "app/verbs.h"
 #include "app/version.h"
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
+#include "libdem/io/hdf5.h"
 
 namespace {
 
@@ -18,7 +21,7 @@ int tell(int code, std::string message) {
   // One line, whatever a library put into its message.
   std::replace_if(
       message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
-  fmt::print(stderr, "{}\n", message);
+  app::put(stderr, message + "\n");
   return code;
 }
 
@@ -26,7 +29,9 @@ int fail(int code, const char* message) { return tell(code, std::string("spall: 
 
 int run(const std::function<int()>& action) {
   try {
-    return action();
+    const int code = action();
+    app::require_output_whole();
+    return code;
   } catch (const dem::InputError& error) {
     return fail(app::input_wrong, error.what());
   } catch (const dem::Interrupted& error) {
@@ -41,6 +46,7 @@ int run(const std::function<int()>& action) {
 }  // namespace
 
 int main(int count, char** values) {
+  app::prepare_standard_streams();
   app::Invocation invocation;
   invocation.arguments.assign(values, values + count);
   invocation.started = app::utc_now();
@@ -61,6 +67,12 @@ int main(int count, char** values) {
   app::add_card(root, invocation);
   app::add_report(root, invocation);
 
+  // An option's empty value, of a variable that is not set, would be as if the option were not there.
+  for (int k = 1; k < count; ++k)
+    if (std::string_view word = values[k]; word.empty() || (word.starts_with("--") && word.ends_with('=')))
+      return tell(app::input_wrong,
+                  fmt::format("spall: {}: the value is empty; leave the option out, or give it one",
+                              word.empty() && k > 1 ? values[k - 1] : values[k]));
   try {
     root.parse(count, values);
   } catch (const CLI::ParseError& error) {
@@ -68,5 +80,9 @@ int main(int count, char** values) {
     return tell(app::input_wrong, app::explain(root, error, invocation.arguments));
   }
   dem::install_interrupt_handlers();
-  return run(invocation.action);
+  return run([&] {
+    // Later there may not be the memory, of whose lack the library crashes.
+    dem::start_hdf5();
+    return invocation.action();
+  });
 }

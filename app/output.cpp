@@ -1,9 +1,13 @@
 #include "app/output.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <ctime>
 #include <fstream>
 #include <string_view>
@@ -44,16 +48,28 @@ std::string command_to_go_on(const Invocation& invocation) {
 
 namespace {
 
-/// A command line without what changes no result.
+/// A command line without what changes no result: how it is told, on how many threads it is made, what the
+/// folder is called.
 std::vector<std::string> what_is_asked(const std::vector<std::string>& arguments) {
   std::vector<std::string> words;
   for (std::size_t k = 1; k < arguments.size(); ++k) {  // the program may have been called by another path
     const std::string& word = arguments[k];
-    if (word == "--threads") ++k;
-    if (word != "--resume" && word != "--quiet" && word != "--json" && !word.starts_with("--threads"))
+    const bool with_value = word == "--threads" || word == "-o" || word == "--output";
+    if (with_value) ++k;
+    if (!with_value && word != "--resume" && word != "--quiet" && word != "--json" &&
+        !word.starts_with("--threads=") && !word.starts_with("--output=") && !word.starts_with("-o"))
       words.push_back(word);
   }
   return words;
+}
+
+/// Whether the folder holds pictures that a run has made.
+bool holds_frames(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".series") return true;
+  return false;
 }
 
 dem::RunError cannot_be_removed(const std::filesystem::path& file, const std::error_code& error) {
@@ -82,7 +98,7 @@ EarlierResults::EarlierResults(const std::vector<std::filesystem::path>& earlier
 
 EarlierResults::~EarlierResults() {
   std::error_code ignored;  // what stays is swept by the next run
-  for (const std::filesystem::path& file : files) std::filesystem::remove(dem::scratch_path(file), ignored);
+  for (const std::filesystem::path& file : files) std::filesystem::remove_all(dem::scratch_path(file), ignored);
 }
 
 void EarlierResults::put_back() noexcept {
@@ -94,8 +110,22 @@ void EarlierResults::put_back() noexcept {
 
 RunFolder::RunFolder(const std::filesystem::path& where, const Invocation& call, const CommonOptions& common)
     : folder(where), invocation(call), threads(common.thread_count()) {
+  if (folder.empty()) throw dem::InputError("-o", "is empty", "name a folder for what comes out");
   dem::require_writable_folder(folder);
   dem::sweep_scratch(folder);
+}
+
+void RunFolder::claim() {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  lock = std::shared_ptr<const int>(new int(descriptor), [](const int* held) {
+    ::close(*held);
+    delete held;
+  });
+  // Where the file system has no locks nobody is kept out.
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw dem::InputError(folder.string(), "another run is at work in this folder",
+                          "wait for its end, or give another folder to -o");
 }
 
 void RunFolder::add_input(const std::filesystem::path& input) {
@@ -127,9 +157,26 @@ std::vector<std::filesystem::path> RunFolder::results(const std::vector<std::str
   std::vector<std::string> names{"result.json", "run.json", "report.html"};
   names.insert(names.end(), others.begin(), others.end());
   std::vector<std::filesystem::path> files;
-  for (const std::string& name : names)
-    if (!is_input(file(name))) files.push_back(file(name));
+  for (const std::string& name : names) {
+    if (is_input(file(name)))
+      throw dem::InputError(file(name).string(), "is an input of this run, which would write its result there",
+                            "give another folder to -o, or the input another name");
+    files.push_back(file(name));
+  }
   return files;
+}
+
+std::vector<std::filesystem::path> RunFolder::results_and_frames(const std::vector<std::string>& others,
+                                                                 bool frames) const {
+  std::vector<std::filesystem::path> files = results(others);
+  if (frames && holds_frames(file("frames"))) files.push_back(file("frames"));
+  return files;
+}
+
+bool RunFolder::has_begun() const {
+  std::error_code ignored;
+  return std::filesystem::exists(file("checkpoint.h5"), ignored) ||
+         std::filesystem::exists(file("frames"), ignored);
 }
 
 void RunFolder::remove_results(const std::vector<std::string>& others) const {

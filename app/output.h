@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ std::string command_to_go_on(const Invocation& invocation);
 /// Takes back a folder that a refused run has made; leaves one alone that holds something.
 void remove_if_empty(const std::filesystem::path& folder);
 
-/// Files of an earlier run under hidden names, in the order given; removed in the end.
+/// Files and folders of an earlier run under hidden names, in the order given; removed in the end.
 class EarlierResults {
  public:
   /// Throws RunError, and leaves all where they were, if one cannot be renamed.
@@ -42,6 +43,10 @@ class RunFolder {
   /// computing.
   RunFolder(const std::filesystem::path& folder, const Invocation& invocation, const CommonOptions& common);
 
+  /// Keeps other runs out of the folder until this one ends, however it does. Throws InputError if another one
+  /// is at work there.
+  void claim();
+
   /// Records an input file with its SHA-256. Throws InputError if it cannot be read. Call it when the file is
   /// read: what counts is what the run saw.
   void add_input(const std::filesystem::path& file);
@@ -52,17 +57,22 @@ class RunFolder {
   bool is_finished() const;
   /// Removes what an earlier run ended with: result.json, run.json, report.html and the others that are named,
   /// but for this run's inputs. Whoever computes calls it, or `compute_anew`, before anything is written, so
-  /// that a run that is killed leaves no result of an earlier one. Throws RunError.
+  /// that a run that is killed leaves no result of an earlier one. Throws RunError; InputError
+  /// if one of these files is an input, whose place the result would take.
   void remove_results(const std::vector<std::string>& others) const;
-  /// What `compute` returns; the same files are out of its way. They are removed when it ends, but stand in
-  /// their places again if it throws InputError: what is refused costs nobody an earlier result.
+  /// What `compute` returns; the same files are out of its way, and frames/ where `goes_on` is false. They are
+  /// removed when it ends, but stand in their places again if it throws InputError, or is stopped before it has
+  /// written anything: that costs nobody an earlier result.
   template <class Compute>
-  auto compute_anew(const std::vector<std::string>& others, const Compute& compute) const {
-    EarlierResults earlier(results(others));
+  auto compute_anew(const std::vector<std::string>& others, bool goes_on, const Compute& compute) const {
+    EarlierResults earlier(results_and_frames(others, !goes_on));
     try {
       return compute();
     } catch (const dem::InputError&) {
       earlier.put_back();
+      throw;
+    } catch (const dem::Interrupted&) {
+      if (!has_begun()) earlier.put_back();
       throw;
     }
   }
@@ -77,12 +87,17 @@ class RunFolder {
   bool is_input(const std::filesystem::path& file) const;
   /// result.json first: where it is, everything else is there too.
   std::vector<std::filesystem::path> results(const std::vector<std::string>& others) const;
+  std::vector<std::filesystem::path> results_and_frames(const std::vector<std::string>& others,
+                                                        bool frames) const;
+  /// Whether a checkpoint or frames are there.
+  bool has_begun() const;
 
   std::filesystem::path folder;
   const Invocation& invocation;
   int threads;
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   std::vector<std::uint64_t> seeds;
+  std::shared_ptr<const int> lock;  ///< a descriptor of the folder, closed with it
 };
 
 }  // namespace app

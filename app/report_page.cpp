@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <utility>
 
 #include "app/calibration_page.h"
@@ -12,18 +11,26 @@
 #include "app/study_page.h"
 #include "app/test_page.h"
 #include "libdem/core/error.h"
+#include "libdem/core/input_file.h"
 #include "report/page.h"
 
 namespace app {
 namespace {
 
 Json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw dem::InputError(file.string(), "there is no such file",
-                          "give the folder of a finished run: the one that its -o named");
+  constexpr std::size_t most = std::size_t{1} << 30;
+  const std::string content =
+      dem::content_of_input(file, most, "give the folder of a finished run: the one that its -o named");
+  // What writes it again goes one call deeper for each level.
+  constexpr int deepest = 100;
+  const auto not_too_deep = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > deepest)
+      throw dem::InputError(file.string(), "its lists are nested more than 100 deep",
+                            "give the folder of a finished run");
+    return true;
+  };
   try {
-    return Json::parse(in);
+    return Json::parse(content, not_too_deep);
   } catch (const Json::exception&) {
     throw dem::InputError(file.string(), "this is not JSON", "give the folder of a finished run");
   }

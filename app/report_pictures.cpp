@@ -39,6 +39,12 @@ double millimetres(const PictureRequest& request) {
   if (!(width >= 40 && width <= 1200))
     throw dem::InputError("--width", fmt::format("{} is no width of a picture", request.width),
                           "40 mm to 1200 mm");
+  constexpr double most_pixels = 6000, millimetres_an_inch = 25.4;
+  if (request.png && width / millimetres_an_inch * request.dots_per_inch > most_pixels)
+    throw dem::InputError(
+        "--width",
+        fmt::format("{} at {} dots an inch are too many pixels", request.width, request.dots_per_inch),
+        "6,000 side by side at most: lower --dpi or --width");
   return width;
 }
 

@@ -33,13 +33,14 @@ int draw(const ReportOptions& options) {
     console.say(fmt::format("wrote {}", file.string()));
     names.push_back(file.string());
   }
-  console.result(nlohmann::ordered_json{{"pictures", names}}.dump(2));
+  console.result(nlohmann::ordered_json{{"pictures", names}});
   return done;
 }
 
 int report(const ReportOptions& options) {
   // A mistyped folder must not be made by the check below.
-  if (!std::filesystem::is_directory(options.folder))
+  std::error_code error;
+  if (!std::filesystem::is_directory(options.folder, error))
     throw dem::InputError(options.folder, "there is no such folder", "give the folder of a finished run");
   if (options.pictures.png || options.pictures.svg) return draw(options);
   dem::require_writable_folder(options.folder);
@@ -47,7 +48,7 @@ int report(const ReportOptions& options) {
   const std::string page = (std::filesystem::path(options.folder) / "report.html").string();
   Console console(options.common);
   console.say(fmt::format("wrote {}", page));
-  console.result(nlohmann::ordered_json{{"report", page}}.dump(2));
+  console.result(nlohmann::ordered_json{{"report", page}});
   return done;
 }
 

@@ -39,14 +39,43 @@ const std::filesystem::path* at_moment(const Files& files, double time) {
   return nullptr;
 }
 
+[[noreturn]] void refuse(const dem::Hdf5File& in, const std::string& wrong) {
+  throw dem::InputError(in.path().string(), wrong, "remove the frames, or run once more");
+}
+
+/// Vectors, a row each.
+std::vector<double> vectors_of(const dem::Hdf5File& in, const std::string& name,
+                               std::size_t rows = dem::Hdf5File::any) {
+  std::vector<double> numbers = in.read<double>(name, 3, rows);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); }))
+    refuse(in, fmt::format("a number of {} is not finite", name));
+  return numbers;
+}
+
+std::vector<double> points_of(const dem::Hdf5File& in) { return vectors_of(in, "VTKHDF/Points"); }
+
+/// Which of so many points the cells join.
+std::vector<std::int64_t> corners_of(const dem::Hdf5File& in, std::size_t points) {
+  std::vector<std::int64_t> corners = in.read<std::int64_t>("VTKHDF/Connectivity");
+  for (const std::int64_t corner : corners)
+    if (corner < 0 || corner >= static_cast<std::int64_t>(points))
+      refuse(in, fmt::format("it names point {}, of {}", corner, points));
+  return corners;
+}
+
+/// Cells are read from the first frame alone.
+void require_same_points(const dem::Hdf5File& in, std::size_t found, std::size_t before) {
+  if (found != before) refuse(in, fmt::format("it shows {} points, and others {}", found / 3, before / 3));
+}
+
 double length(const std::vector<double>& vectors, std::size_t i) {
   return std::hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]);
 }
 
 void add_elements(report::Scene& scene, report::Scene::Frame& frame, const dem::Hdf5File& in) {
-  const std::vector<double> points = in.read<double>("VTKHDF/Points", 3);
+  const std::vector<double> points = points_of(in);
   const std::size_t count = points.size() / 3;
-  const std::vector<double> moved = in.read<double>("VTKHDF/PointData/displacement", 3, count);
+  const std::vector<double> moved = vectors_of(in, "VTKHDF/PointData/displacement", count);
   if (scene.frames.empty()) {
     scene.radii = as_float(in.read<double>("VTKHDF/PointData/radius", 0, count));
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -54,9 +83,7 @@ void add_elements(report::Scene& scene, report::Scene::Frame& frame, const dem::
     scene.fields = {{"damage", "", 0, 1}, {"displacement", "mm", 0, 0}};
     if (in.has("VTKHDF/PointData/velocity")) scene.fields.push_back({"speed", "m/s", 0, 0});
   } else if (count != scene.elements()) {
-    throw dem::InputError(in.path().string(),
-                          fmt::format("it shows {} elements, and others {}", count, scene.elements()),
-                          "remove the frames, or run once more");
+    refuse(in, fmt::format("it shows {} elements, and others {}", count, scene.elements()));
   }
   frame.displacements = as_float(moved);
   frame.values.push_back(as_float(in.read<double>("VTKHDF/PointData/damage", 0, count)));
@@ -65,7 +92,7 @@ void add_elements(report::Scene& scene, report::Scene::Frame& frame, const dem::
     for (std::size_t i = 0; i < count; ++i) values.push_back(static_cast<float>(factor * length(vectors, i)));
   };
   add_length(moved, 1e3);
-  if (scene.fields.size() > 2) add_length(in.read<double>("VTKHDF/PointData/velocity", 3, count), 1);
+  if (scene.fields.size() > 2) add_length(vectors_of(in, "VTKHDF/PointData/velocity", count), 1);
 }
 
 using Pair = std::pair<std::int64_t, std::int64_t>;
@@ -109,13 +136,14 @@ std::vector<std::uint32_t> outer_faces(const std::vector<std::int64_t>& corners)
 }
 
 void add_mesh(report::Scene& scene, report::Scene::Frame& frame, const dem::Hdf5File& in) {
-  const std::vector<double> points = in.read<double>("VTKHDF/Points", 3);
-  const std::vector<double> moved = in.read<double>("VTKHDF/PointData/displacement", 3, points.size() / 3);
+  const std::vector<double> points = points_of(in);
+  const std::vector<double> moved = vectors_of(in, "VTKHDF/PointData/displacement", points.size() / 3);
   if (scene.mesh_nodes.empty()) {
     for (std::size_t k = 0; k < points.size(); ++k)
       scene.mesh_nodes.push_back(static_cast<float>(points[k] - moved[k]));
-    scene.mesh_faces = outer_faces(in.read<std::int64_t>("VTKHDF/Connectivity"));
+    scene.mesh_faces = outer_faces(corners_of(in, points.size() / 3));
   }
+  require_same_points(in, points.size(), scene.mesh_nodes.size());
   frame.mesh_displacements = as_float(moved);
 }
 
@@ -142,7 +170,9 @@ std::optional<report::Scene> scene_of_frames(const std::filesystem::path& folder
   report::Scene scene;
   scene.title = title;
   std::set<Pair> broken;
-  const std::size_t elements = dem::Hdf5File::open(all.front().first).shape("VTKHDF/Points")[0];
+  std::size_t body_numbers = 0;
+  const std::size_t elements =
+      dem::Hdf5File::open(all.front().first).read<double>("VTKHDF/Points", 3).size() / 3;
   for (const auto& [file, moment] : thinned(all, elements)) {
     report::Scene::Frame frame;
     frame.time = moment.time;
@@ -154,10 +184,13 @@ std::optional<report::Scene> scene_of_frames(const std::filesystem::path& folder
     if (const auto* other = at_moment(meshes, moment.time)) add_mesh(scene, frame, dem::Hdf5File::open(*other));
     if (const auto* other = at_moment(bodies, moment.time)) {
       const dem::Hdf5File in = dem::Hdf5File::open(*other);
-      frame.body_points = as_float(in.read<double>("VTKHDF/Points", 3));
-      if (scene.body_triangles.empty())
-        for (const std::int64_t point : in.read<std::int64_t>("VTKHDF/Connectivity"))
+      frame.body_points = as_float(points_of(in));
+      if (scene.body_triangles.empty()) {
+        for (const std::int64_t point : corners_of(in, frame.body_points.size() / 3))
           scene.body_triangles.push_back(static_cast<std::uint32_t>(point));
+        body_numbers = frame.body_points.size();
+      }
+      require_same_points(in, frame.body_points.size(), body_numbers);
     }
     scene.frames.push_back(std::move(frame));
   }

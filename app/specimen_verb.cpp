@@ -1,6 +1,8 @@
 // spall specimen make | extract | inspect
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -67,7 +69,7 @@ void tell(Console& console, const std::string& file, const specimens::Inspection
                           found.fabric_eigenvalues[1], found.fabric_eigenvalues[2],
                           found.isotropic ? "isotropic" : "not isotropic"));
   console.say(fmt::format("  SHA-256 {}", found.sha256));
-  console.result(specimens::to_json(found).dump(2));
+  console.result(specimens::to_json(found));
 }
 
 int make(SpecimenOptions& options) {
@@ -81,7 +83,7 @@ int make(SpecimenOptions& options) {
   told_about("--elements", [&] {
     specimens::require_enough_elements(options.packing.shape, options.packing.size, options.packing.elements);
   });
-  require_writable_file(options.output);
+  require_writable_file(options.output, true);
   use_threads(options.common);
   Console console(options.common);
   const specimens::Specimen specimen = specimens::make_specimen(options.packing, console.progress());
@@ -95,7 +97,7 @@ int extract(SpecimenOptions& options) {
   const dem::Vec3 centre = three_lengths(options.centre, "--centre", "1.25,1.0,0.14 m");
   use_threads(options.common);
   const specimens::Specimen whole = specimens::read_specimen(options.file);
-  require_writable_file(options.output);
+  require_writable_file(options.output, true);
   Console console(options.common);
   specimens::Specimen part = told_about(
       "--centre and --size", [&] { return specimens::extract(whole, shape_of(options), centre, size); });
@@ -143,7 +145,17 @@ void add_specimen(CLI::App& root, Invocation& invocation) {
       ->check(CLI::Range(1, 100'000'000));
   maker
       ->add_option("--seed", options->packing.seed, "Seed of the disorder, default 1: same seed, same specimen")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"));
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->check(CLI::Validator(
+          [](const std::string& word) {  // CLI11 reads what is too large as the largest number
+            std::int64_t seed = 0;
+            const bool fits = std::from_chars(word.data(), word.data() + word.size(), seed).ec !=
+                              std::errc::result_out_of_range;
+            return fits ? std::string()
+                        : fmt::format("Value {} not in range 0 to {}", word,
+                                      std::numeric_limits<std::int64_t>::max());
+          },
+          ""));
   maker->add_option("--grading", options->grading, "Distribution of the radii, default uniform")
       ->check(CLI::IsMember({"uniform", "lognormal", "equal"}));
   maker

@@ -149,7 +149,7 @@ int submit_study(const SlurmStudy& what, const SlurmChoices& choices, Console& c
                       what.output, failed, what.chosen.size()));
     console.say(fmt::format("every task has its result; write the table with: spall study report {} -o {}",
                             what.file, what.output));
-    console.result(json_of({}).dump(2));
+    console.result(json_of({}));
     return done;
   }
   request.states = status.states;
@@ -174,7 +174,7 @@ int submit_study(const SlurmStudy& what, const SlurmChoices& choices, Console& c
     console.remark(
         fmt::format("left out, since they failed: {} tasks; --retry-failed takes them along", failed));
   console.say(fmt::format("how far it is: spall study status {} -o {}", what.file, what.output));
-  console.result(json_of(submitted).dump(2));
+  console.result(json_of(submitted));
   return done;
 }
 

@@ -39,7 +39,7 @@ int plan_study(const StudyOptions& options) {
   const study::Plan plan = read_plan(options);
   Console console(options.common);
   for (const std::string& line : plan_lines(plan, options.common.thread_count())) console.say(line);
-  console.result(plan_json(plan, options.common.thread_count()).dump(2));
+  console.result(plan_json(plan, options.common.thread_count()));
   return done;
 }
 
@@ -194,10 +194,9 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
     console.result(Json{{"tasks", outcome.chosen},
                         {"results", outcome.results},
                         {"ran", outcome.ran},
-                        {"failed", failures_json(plan, outcome.failures)}}
-                       .dump(2));
+                        {"failed", failures_json(plan, outcome.failures)}});
   } else {
-    console.result(write_study_report(options, invocation, plan, console).dump(2));
+    console.result(write_study_report(options, invocation, plan, console));
   }
   throw_if_failed(plan, outcome);
   return done;
@@ -239,7 +238,7 @@ int status_of_study(const StudyOptions& options) {
   console.say(line);
   if (Json slurm = tell_slurm_status(plan, options.output, status.states, console); !slurm.is_null())
     json["slurm"] = std::move(slurm);
-  console.result(json.dump(2));
+  console.result(json);
   return done;
 }
 
@@ -247,7 +246,7 @@ int report_study(const StudyOptions& options, const Invocation& invocation) {
   const study::Plan plan = read_plan(options);
   require_study_folder(options.output);
   Console console(options.common);
-  console.result(write_study_report(options, invocation, plan, console).dump(2));
+  console.result(write_study_report(options, invocation, plan, console));
   return done;
 }
 

@@ -156,14 +156,15 @@ void say_what_came_out(const TestDescription& test, const virtual_tests::TestOut
 
 int run_test(const TestDescription& test, const TestCommand& command, const Invocation& invocation) {
   const virtual_tests::TestOptions options = options_of(test, command);
-  const Inputs inputs = read_inputs(command, test, options, invocation);
+  Inputs inputs = read_inputs(command, test, options, invocation);
   Console console(command.common);
+  inputs.folder.claim();
   if (command.resume && inputs.folder.is_finished()) {
     leave_as_it_is(inputs.folder, console);
     return done;
   }
   const virtual_tests::TestOutcome found =
-      inputs.folder.compute_anew({"curves.csv", "fields.h5", "links.h5"},
+      inputs.folder.compute_anew({"curves.csv", "fields.h5", "links.h5"}, false,
                                  [&] { return run_or_stop(command, invocation, inputs, options, console); });
   const specimens::Specimen& tested = found.tested ? *found.tested : inputs.specimen;
   if (!found.curve.empty())
@@ -191,7 +192,7 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
   inputs.folder.write(result);
   write_report(inputs.folder.path());
   console.say(fmt::format("wrote {} and report.html", inputs.folder.file("result.json").string()));
-  console.result(result.dump(2));
+  console.result(result);
   std::error_code ignored;  // a finished test needs none; one that stays does no harm
   std::filesystem::remove(inputs.folder.file("checkpoint.h5"), ignored);
   return done;

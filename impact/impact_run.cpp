@@ -59,6 +59,7 @@ struct Run {
         model(std::move(made)),
         room(model.assembly),
         record(sample_interval(its_scene)) {
+    require_sensible_step();
     options.time_step = model.time_step;
     options.damping.factor = scene.damping;
     options.threads = threads;
@@ -79,6 +80,24 @@ struct Run {
       record.energy.impactor = record.energy.initial;
     }
     record.first_momentum = momentum_of(model, body(), impactor);
+  }
+
+  /// Contacts that nothing can follow, and an impactor that passes elements between two steps.
+  void require_sensible_step() const {
+    constexpr double most_steps = 1e9;
+    if (!(scene.duration / model.time_step <= most_steps))
+      throw dem::InputError(
+          "run.duration",
+          fmt::format("takes {:.3g} steps of {:.3g} s", scene.duration / model.time_step, model.time_step),
+          "a thousand million at most: the duration is long, or a contact or the concrete very stiff");
+    if (!scene.impactor) return;
+    const double way = scene.approach.speed * model.time_step;
+    if (!(way < room.smallest_radius))
+      throw dem::InputError(
+          "impactor.speed",
+          fmt::format("carries it {:.3g} m in one step of {:.3g} s, past elements of radius {:.3g} m", way,
+                      model.time_step, room.smallest_radius),
+          "lower it, or run.time_step_fraction");
   }
 
   static double sample_interval(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,11 @@ void validate(const std::string& file, const Specimen& specimen) {
     if (!centre.allFinite() || specimen.depth(centre) < -hair)
       refuse(fmt::format("element {} is outside the shape", k));
   }
+  double solid = 0;
+  for (const double radius : specimen.radii) solid += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  // Elements on a face reach out of the shape, so a small specimen may hold a little more than itself.
+  if (const double part = solid / specimen.volume(); part < 1e-4 || part > 1.5)
+    refuse(fmt::format("its elements fill {:.3g} of its volume", part));
   const auto elements = static_cast<std::int64_t>(specimen.elements());
   for (std::size_t k = 0; k < specimen.links.size(); ++k) {
     const Link& link = specimen.links[k];
@@ -42,10 +48,17 @@ void validate(const std::string& file, const Specimen& specimen) {
       refuse(fmt::format("link {} joins elements {} and {}, of {}", k, link.a, link.b, elements));
     if (!std::isfinite(link.initial_distance) || !(link.initial_distance > 0))
       refuse(fmt::format("link {} has initial distance {} m", k, link.initial_distance));
-    if (k == 0) continue;
-    const Link& before = specimen.links[k - 1];
-    if (before.a > link.a || (before.a == link.a && before.b >= link.b))
-      refuse(fmt::format("link {} is doubled or out of order", k));
+    if (k > 0) {
+      const Link& before = specimen.links[k - 1];
+      if (before.a > link.a || (before.a == link.a && before.b >= link.b))
+        refuse(fmt::format("link {} is doubled or out of order", k));
+    }
+    const double apart = (specimen.centres[static_cast<std::size_t>(link.a)] -
+                          specimen.centres[static_cast<std::size_t>(link.b)])
+                             .norm();
+    if (std::abs(link.initial_distance - apart) > 1e-6 * apart)
+      refuse(fmt::format("link {} is {:.6g} m long, and its elements are {:.6g} m apart", k,
+                         link.initial_distance, apart));
   }
 }
 

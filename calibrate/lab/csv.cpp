@@ -7,13 +7,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "libdem/core/error.h"
+#include "libdem/core/input_file.h"
 
 namespace lab {
 namespace {
@@ -70,11 +69,8 @@ std::string read_text(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw InputError(file, "is a folder", "name a CSV file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(file, "cannot be read", "check the path and that you may read it");
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw InputError(file, "cannot be read to its end", "check the disk");
-  return text;
+  constexpr std::size_t most = std::size_t{1} << 30;
+  return dem::content_of_input(path, most, "name a CSV file that you may read");
 }
 
 /// Without a byte order mark, and UTF-8 whatever it was.

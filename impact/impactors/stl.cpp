@@ -7,11 +7,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "libdem/core/error.h"
+#include "libdem/core/input_file.h"
 
 namespace impact {
 namespace {
@@ -147,11 +146,9 @@ TriangleMesh read_stl(const std::filesystem::path& file, double metres_per_unit)
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw dem::InputError(file.string(), "this is a folder", "name an STL file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw dem::InputError(file.string(), std::system_category().message(errno), "name an STL file to read");
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return parse_stl(bytes, file.string(), metres_per_unit);
+  constexpr std::size_t most = std::size_t{8} << 30;
+  return parse_stl(dem::content_of_input(file, most, "name an STL file to read"), file.string(),
+                   metres_per_unit);
 }
 
 }  // namespace impact

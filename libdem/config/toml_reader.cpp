@@ -4,13 +4,13 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "libdem/config/nearest_name.h"
 #include "libdem/core/error.h"
+#include "libdem/core/input_file.h"
 
 namespace dem {
 
@@ -128,25 +128,44 @@ struct TomlTable::Access {
   }
 };
 
+namespace {
+
+/// Each dot of a.b.c is a table in a table, which the parser's recursion does not survive by the ten thousand.
+void refuse_deep_keys(std::string_view text, const std::string& name) {
+  constexpr std::size_t deepest = 100;
+  std::size_t dots = 0, line = 1;
+  char quote = 0;  // of the text under way, whose dots are its own
+  for (const char letter : text) {
+    if (letter == '\n') ++line;
+    if (quote != 0) {
+      if (letter == quote || letter == '\n') quote = 0;
+      continue;
+    }
+    if (letter == '"' || letter == '\'') quote = letter;
+    const bool of_a_key = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                          std::string_view("_-\"' \t.").find(letter) != std::string_view::npos;
+    if (letter == '.') ++dots;
+    if (!of_a_key) dots = 0;
+    if (dots > deepest)
+      throw InputError(fmt::format("{}:{}", name, line), "a key of more than 100 parts",
+                       "a line is either [table] or key = value, and text stands in quotes");
+  }
+}
+
+}  // namespace
+
 TomlTable::TomlTable(std::shared_ptr<Node> shared) : node(std::move(shared)) {}
 
 TomlTable TomlTable::read(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(file.string(), "there is no such file", "give the path of a TOML file");
-  std::ifstream in(file, std::ios::binary);
-  if (std::filesystem::is_directory(file, error) || !in)
-    throw InputError(file.string(), "the file cannot be read", "give the path of a readable TOML file");
-  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad())
-    throw InputError(file.string(), "the file cannot be read", "give the path of a readable TOML file");
-  return parse(content, file.string());
+  constexpr std::size_t most = 16 << 20;
+  return parse(content_of_input(file, most, "give the path of a TOML file"), file.string());
 }
 
 TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw InputError(name, "the file is empty",
                      "write the keys that are needed, one a line, as in E = \"30 GPa\"");
+  refuse_deep_keys(text, name);
   try {
     auto root = std::make_shared<Node>();
     root->document = std::make_shared<const toml::table>(toml::parse(text));

@@ -4,7 +4,8 @@
 
 namespace dem {
 
-/// Installs handlers for SIGINT and SIGTERM that set the flag. A second signal ends the process at once.
+/// Installs handlers for SIGINT and SIGTERM that set the flag, and for SIGHUP and SIGXCPU where they are not
+/// ignored. Another signal more than a second later ends the process at once.
 void install_interrupt_handlers();
 /// True once a signal asked for a stop, or whoever started this thread's job did.
 bool interrupt_requested();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -43,6 +44,11 @@ Kind kind(Quantity quantity) {
   return {"1", "1", "number"};
 }
 
+std::string as_in(Quantity quantity) {
+  const auto [unit, example, name] = kind(quantity);
+  return fmt::format("write {} {} as in \"{}\"", name.starts_with('a') ? "an" : "a", name, example);
+}
+
 struct FreeUnit {
   void operator()(ut_unit* unit) const { ut_free(unit); }
 };
@@ -73,6 +79,13 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
+bool made_of_radians(const ut_unit* unit) {
+  char text[256] = "";
+  const int length = ut_format(unit, text, sizeof text, UT_ASCII | UT_DEFINITION);
+  return length > 0 && std::string_view(text, std::min<std::size_t>(length, sizeof text)).find("rad") !=
+                           std::string_view::npos;
+}
+
 /// Takes the leading number off `text`.
 double take_number(std::string_view& text, std::string_view whole, Quantity quantity,
                    const std::string& where) {
@@ -81,8 +94,7 @@ double take_number(std::string_view& text, std::string_view whole, Quantity quan
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || !std::isfinite(value))
-    throw InputError(where, fmt::format("\"{}\" does not start with a finite number", whole),
-                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
+    throw InputError(where, fmt::format("\"{}\" does not start with a finite number", whole), as_in(quantity));
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
 }
@@ -90,25 +102,24 @@ double take_number(std::string_view& text, std::string_view whole, Quantity quan
 /// The unit may carry a number beyond what a double holds.
 double finite(double value, std::string_view text, Quantity quantity, const std::string& where) {
   if (!std::isfinite(value))
-    throw InputError(where, fmt::format("\"{}\" is too large a number", text),
-                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
+    throw InputError(where, fmt::format("\"{}\" is too large a number", text), as_in(quantity));
   return value;
 }
 
 /// UDUNITS-2 takes "4 MPa" for a unit of its own, and a value before it would be four times what is meant.
 void refuse_numbers_in_a_unit(std::string_view unit, Quantity quantity, const std::string& where) {
   const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
-  const auto refuse = [&](const std::string& wrong) {
-    throw InputError(where, wrong,
-                     fmt::format("write a {} as in \"{}\"", kind(quantity).name, kind(quantity).example));
-  };
+  const auto refuse = [&](const std::string& wrong) { throw InputError(where, wrong, as_in(quantity)); };
+  for (const char letter : unit)
+    if (static_cast<unsigned char>(letter) < 32 || letter == 127) refuse("a control character stands in it");
   if (unit.size() > 1 && unit[0] == ',' && is_digit(unit[1]))
     refuse("a comma stands in the number, not a point");
   for (std::size_t k = 0; k < unit.size(); ++k) {
     const bool number = is_digit(unit[k]) || (unit[k] == '.' && k + 1 < unit.size() && is_digit(unit[k + 1]));
     // An exponent stands behind its unit, as in m3, m^3 or s-2; "1/s" is a unit too.
     const bool begins =
-        k == 0 || unit[k - 1] == ' ' || unit[k - 1] == ',' ||
+        k == 0 || std::string_view(" ,.*/").find(unit[k - 1]) != std::string_view::npos ||
+        (k > 1 && unit.substr(k - 2, 2) == "\u00B7") ||
         ((unit[k - 1] == 'x' || unit[k - 1] == '-' || unit[k - 1] == '+') && (k == 1 || unit[k - 2] == ' '));
     if (number && begins && unit.substr(k, 2) != "1/")
       refuse(fmt::format("\"{}\" follows the number: one number and its unit are due", unit));
@@ -125,20 +136,18 @@ double unit_factor(std::string_view unit, Quantity quantity, const std::string& 
   const Kind wanted = kind(quantity);
   if (quantity == Quantity::ratio && (unit.empty() || unit == "-" || unit == "1")) return 1;
   refuse_numbers_in_a_unit(unit, quantity, where);
-  if (unit.empty())
-    throw InputError(where, "the unit is missing",
-                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+  if (unit.empty()) throw InputError(where, "the unit is missing", as_in(quantity));
   System& known = units();
   const std::scoped_lock lock(known.mutex);
   const Unit from(ut_parse(known.system, std::string(unit).c_str(), UT_UTF8));
   const Unit to(ut_parse(known.system, std::string(wanted.unit).c_str(), UT_UTF8));
-  if (!from)
-    throw InputError(where, fmt::format("\"{}\" is no unit that is known", unit),
-                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
-  // An angle is a pure number to UDUNITS-2; "6 rad" for a ratio is a mistake all the same.
-  if (!ut_are_convertible(from.get(), to.get()))
-    throw InputError(where, fmt::format("\"{}\" is not a unit of {}", unit, wanted.name),
-                     fmt::format("write a {} as in \"{}\"", wanted.name, wanted.example));
+  if (!from) throw InputError(where, fmt::format("\"{}\" is no unit that is known", unit), as_in(quantity));
+  // An angle is a pure number to UDUNITS-2; "6 rad" for a ratio, or "6 %" for an angle, is a mistake all the
+  // same.
+  const bool pure = quantity == Quantity::ratio || quantity == Quantity::angle;
+  if (!ut_are_convertible(from.get(), to.get()) ||
+      (pure && made_of_radians(from.get()) != (quantity == Quantity::angle)))
+    throw InputError(where, fmt::format("\"{}\" is not a unit of {}", unit, wanted.name), as_in(quantity));
   const std::unique_ptr<cv_converter, void (*)(cv_converter*)> convert(ut_get_converter(from.get(), to.get()),
                                                                        cv_free);
   return cv_convert_double(convert.get(), 1.0) - cv_convert_double(convert.get(), 0.0);

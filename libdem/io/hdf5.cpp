@@ -425,6 +425,11 @@ SPALL_INSTANTIATE(std::uint64_t)
 SPALL_INSTANTIATE(std::uint8_t)
 #undef SPALL_INSTANTIATE
 
+void start_hdf5() {
+  const Lock lock;
+  if (H5open() < 0) throw RunError("the HDF5 library cannot be started; is there memory?");
+}
+
 void create_spall_file(const std::filesystem::path& file, const std::string& format, int version,
                        const std::function<void(Hdf5File&)>& write) {
   write_file_atomically(file, [&](const std::filesystem::path& part) {

@@ -98,6 +98,9 @@ class Hdf5File {
   std::unique_ptr<Implementation> self;
 };
 
+/// Readies the library, which the first use would do, and crash where memory is short. Throws RunError.
+void start_hdf5();
+
 /// Writes a Spall file whole or not at all: `write` fills it; attributes `format` ("spall-specimen", ...) and
 /// `format_version` are set here. Throws RunError.
 void create_spall_file(const std::filesystem::path& file, const std::string& format, int version,

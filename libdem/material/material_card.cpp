@@ -113,11 +113,19 @@ std::optional<Violation> violation(const MaterialCard& card) {
     if (allowed != nullptr)
       return Violation{field.key, fmt::format("{:.6g}{} is out of bounds", shown, unit),
                        fmt::format("{} must be {}", field.key, allowed)};
+    // Far above any material: a slip of the pen, that would end in numbers which are none.
+    const double most = field.kind == Quantity::stress ? 1e15 : 1e6;
+    if (value > most)
+      return Violation{field.key, fmt::format("{:.6g}{} is out of bounds", shown, unit),
+                       fmt::format("{} must be at most {:g}{}", field.key, most, unit)};
   }
   if (card.poisson_ratio >= 1 / card.alpha || card.poisson_ratio * card.alpha >= 1)
     return Violation{
         "nu", fmt::format("{:.6g} would give links a shear stiffness that is not positive", card.poisson_ratio),
         fmt::format("nu must stay below 1/alpha = {:.4g}", 1 / card.alpha)};
+  if (card.poisson_ratio >= 0.5)
+    return Violation{"nu", fmt::format("{:.6g} is that of no solid", card.poisson_ratio),
+                     "nu must be below 0.5"};
   return std::nullopt;
 }
 
