@@ -11,6 +11,7 @@
 #include "calibrate/pipeline.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "specimens/virtual_tests/fields.h"
 
 namespace app {
@@ -99,6 +100,7 @@ int calibrate_into_folder(const CalibrateOptions& options, const Invocation& inv
 
 int calibrate_case(const CalibrateOptions& options, const Invocation& invocation) {
   use_threads(options.common);
+  dem::seconds_between_checkpoints(0);  // refused here it is not taken for the case's fault
   const calibrate::CalibrationCase wanted = calibrate::read_case(options.file);
   const bool was_there = std::filesystem::exists(options.output);
   try {

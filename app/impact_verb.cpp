@@ -100,7 +100,7 @@ void tell(Console& console, const impact::Scene& scene, const impact::ImpactResu
 
 int run_into_folder(const ImpactOptions& options, const Invocation& invocation, const impact::Scene& scene) {
   RunFolder folder(options.output, invocation, options.common);
-  for (const std::filesystem::path& input : scene.inputs) folder.add_input(input);
+  for (const dem::InputFile& input : scene.inputs) folder.add_input(input);
   folder.add_seed(scene.seed);
   folder.claim();
   Console console(options.common);

@@ -132,6 +132,10 @@ void RunFolder::add_input(const std::filesystem::path& input) {
   inputs.push_back({{"file", input.string()}, {"sha256", dem::sha256_of_file(input)}});
 }
 
+void RunFolder::add_input(const dem::InputFile& input) {
+  inputs.push_back({{"file", input.file.string()}, {"sha256", input.sha256}});
+}
+
 void RunFolder::add_seed(std::uint64_t seed) { seeds.push_back(seed); }
 
 bool RunFolder::is_input(const std::filesystem::path& file) const {

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "libdem/core/error.h"
+#include "libdem/core/input_file.h"
 
 namespace app {
 
@@ -50,6 +51,8 @@ class RunFolder {
   /// Records an input file with its SHA-256. Throws InputError if it cannot be read. Call it when the file is
   /// read: what counts is what the run saw.
   void add_input(const std::filesystem::path& file);
+  /// The same of a file that was read before.
+  void add_input(const dem::InputFile& input);
   void add_seed(std::uint64_t seed);
 
   /// Whether the folder already holds the result of this command with these inputs, however it was to be told

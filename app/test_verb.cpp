@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "app/console.h"
 #include "app/finished_run.h"
@@ -118,8 +119,23 @@ virtual_tests::TestOutcome run_or_stop(const TestCommand& command, const Invocat
          .resume = command.resume,
          .pictures = command.pictures});
   } catch (const dem::Interrupted& stop) {
+    // A static solve keeps none.
+    if (!std::filesystem::exists(checkpoint)) throw;
     throw dem::Interrupted(fmt::format("{}; its state is kept in {}: go on with {}", stop.what(),
                                        checkpoint.string(), command_to_go_on(invocation)));
+  }
+}
+
+/// A stop says how to go on: what the first test kept serves again.
+std::optional<virtual_tests::RateCheck> check_rate_or_stop(const Invocation& invocation, const Inputs& inputs,
+                                                           const virtual_tests::TestOptions& options,
+                                                           const virtual_tests::TestOutcome& found,
+                                                           Console& console) {
+  try {
+    return virtual_tests::check_rate(inputs.specimen, inputs.card, options, found, console.progress());
+  } catch (const dem::Interrupted& stop) {
+    throw dem::Interrupted(fmt::format("{} while the test ran once more at half the speed: go on with {}",
+                                       stop.what(), command_to_go_on(invocation)));
   }
 }
 
@@ -178,8 +194,7 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
   say_what_came_out(test, found, inputs.card, console);
   Json result = result_of(test, found, command, inputs);
   if (command.rate_check) {
-    const auto check =
-        virtual_tests::check_rate(inputs.specimen, inputs.card, options, found, console.progress());
+    const auto check = check_rate_or_stop(invocation, inputs, options, found, console);
     if (check) {
       result["rate_check"] = {{"quantity", check->quantity},
                               {"velocity", check->velocity},

@@ -11,7 +11,6 @@
 #include "impact/run_record.h"
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
-#include "libdem/core/sha256.h"
 #include "libdem/probe/damage.h"
 #include "libdem/run/checkpoint.h"
 #include "libdem/run/checkpoint_interval.h"
@@ -226,11 +225,11 @@ void show(Run& run, const FrameCallback& frame, int number) {
          finite != nullptr ? &finite->nodes : nullptr, pose_of(run.impactor.motion)});
 }
 
-/// What a checkpoint belongs to: the files that the run was made from, and the structure that they gave.
+/// What a checkpoint belongs to: the files that the scene was read from, as they were then, and the structure
+/// that they gave.
 dem::Belonging belonging_of(const Scene& scene, const ImpactModel& model) {
   dem::Belonging belonging;
-  for (const std::filesystem::path& file : scene.inputs)
-    belonging.emplace_back(file.filename().string(), dem::sha256_of_file(file));
+  for (const dem::InputFile& input : scene.inputs) belonging.emplace_back(input.what, input.sha256);
   belonging.emplace_back("specimen", model.specimen.sha256());
   return belonging;
 }

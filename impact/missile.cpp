@@ -99,7 +99,7 @@ FormulaCheck check_formulas(const Scene& scene) {
   check.missile.density = scene.card.density;
   check.missile.thickness = scene.size[axis];
   check.missile.nose_factor = front.nose_factor;
-  const std::string where = scene.inputs.empty() ? "the scene" : scene.inputs.front().string();
+  const std::string where = scene.inputs.empty() ? "the scene" : scene.inputs.front().file.string();
   check.ndrc = modified_ndrc(check.missile, where);
   if (front.nose_factor == flat_nose) {
     MissileCase missile = check.missile;

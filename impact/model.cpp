@@ -13,6 +13,7 @@
 #include "impact/fe/gmsh_mesh.h"
 #include "libdem/core/error.h"
 #include "libdem/core/memory.h"
+#include "libdem/core/sha256.h"
 #include "libdem/motion/critical_step.h"
 #include "specimens/extract.h"
 #include "specimens/interaction_range.h"
@@ -29,11 +30,20 @@ bool inside(const Vec3& point, const Vec3& low, const Vec3& high) {
   return (point.array() >= low.array() - 1e-9).all() && (point.array() <= high.array() + 1e-9).all();
 }
 
+/// The scene keeps only the name of what is large, and reads it once more when it is needed.
+void require_as_read(const Scene& scene, const std::filesystem::path& file) {
+  for (const dem::InputFile& input : scene.inputs)
+    if (input.file == file && dem::sha256_of_file(file) != input.sha256)
+      throw dem::InputError(file.string(), "was changed since the case was read",
+                            "start again, and leave it as it is until the run has begun");
+}
+
 /// The structure or the zone, packed and linked or read.
 specimens::Specimen make_specimen(const Scene& scene, int threads, const dem::ProgressCallback& progress) {
   const bool cut = scene.surroundings && scene.surroundings->cut_from_whole;
   specimens::Specimen specimen;
   if (scene.structure.specimen) {
+    require_as_read(scene, *scene.structure.specimen);
     specimen = specimens::read_specimen(*scene.structure.specimen);
   } else {
     specimens::PackingOptions packing = scene.structure.packing;
@@ -115,6 +125,7 @@ std::unique_ptr<FiniteDomain> make_finite_domain(const Scene& scene, const speci
                                                  double time_step, int threads) {
   const Surroundings& around = *scene.surroundings;
   const coupling::Zone zone = zone_of(scene);
+  if (around.mesh_file) require_as_read(scene, *around.mesh_file);
   fe::Mesh mesh =
       around.mesh_file ? fe::read_gmsh(around.mesh_file->string(), around.mesh_unit) : fe::box_mesh(around.box);
   fe::BodyOptions body_options;

@@ -12,6 +12,7 @@
 #include "impact/coupling/multipliers.h"
 #include "impact/fe/box_mesh.h"
 #include "impact/impactors/impactor.h"
+#include "libdem/core/input_file.h"
 #include "libdem/material/material_card.h"
 #include "specimens/packing.h"
 
@@ -93,7 +94,8 @@ struct Scene {
   /// takes its strength from the card.
   double compressive_strength = 0;
   std::uint64_t seed = 1;
-  std::vector<std::filesystem::path> inputs;  ///< every file that was read, the case itself first
+  std::vector<dem::InputFile>
+      inputs;  ///< every file that was read, the case itself first; none has another's `what`
 };
 
 }  // namespace impact

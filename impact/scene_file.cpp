@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "impact/scene_parts.h"
+#include "libdem/core/sha256.h"
+#include "libdem/material/card_table.h"
 #include "specimens/interaction_range.h"
 #include "specimens/representative.h"
 #include "specimens/specimen_file.h"
@@ -24,16 +26,20 @@ TomlTable need(const TomlTable& root, const char* name) {
   return root.table(name);
 }
 
+void read_card_file(const std::filesystem::path& file, Scene& scene) {
+  const TomlTable table = TomlTable::read(file);
+  scene.card = dem::card_of(table);
+  scene.inputs.push_back({"card", file, table.sha256()});
+}
+
 void read_card_of(const TomlTable& root, const std::optional<std::filesystem::path>& instead, Scene& scene) {
   if (instead) {
     if (root.has("card")) root.text("card");
-    scene.inputs.push_back(*instead);
-    scene.card = dem::read_card(*instead);
+    read_card_file(*instead, scene);
     return;
   }
   const std::filesystem::path file = read_path(root, "card");
-  scene.inputs.push_back(file);
-  scene.card = told_about(root, "card", [&] { return dem::read_card(file); });
+  told_about(root, "card", [&] { read_card_file(file, scene); });
 }
 
 void read_size(const TomlTable& structure, Scene& scene) {
@@ -81,9 +87,10 @@ void read_specimen_file(const TomlTable& structure, const Vec3& size, Scene& sce
       structure.fail(key, "has no meaning beside specimen",
                      "the specimen has its elements already; leave this key out");
   const std::filesystem::path file = read_path(structure, "specimen");
-  scene.inputs.push_back(file);
-  const specimens::Specimen specimen =
-      told_about(structure, "specimen", [&] { return specimens::read_specimen(file); });
+  const specimens::Specimen specimen = told_about(structure, "specimen", [&] {
+    scene.inputs.push_back({"specimen file", file, dem::sha256_of_file(file)});
+    return specimens::read_specimen(file);
+  });
   const bool zone = scene.model == Model::coupled;
   const auto is_box_of = [&](const Vec3& wanted) {
     return specimen.shape == specimens::Shape::box && (specimen.size - wanted).norm() <= 1e-6 * wanted.norm();
@@ -172,8 +179,9 @@ void read_run(const TomlTable& run, Scene& scene) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::optional<std::filesystem::path>& card) {
-  Scene scene = scene_of(TomlTable::read(file), card);
-  scene.inputs.insert(scene.inputs.begin(), file);
+  const TomlTable table = TomlTable::read(file);
+  Scene scene = scene_of(table, card);
+  scene.inputs.insert(scene.inputs.begin(), {"case", file, table.sha256()});
   return scene;
 }
 
@@ -192,7 +200,7 @@ Scene scene_of(const TomlTable& root, const std::optional<std::filesystem::path>
   // One word switches between the models: what the coupled one needs may stay in a case of discrete elements,
   // and is checked all the same.
   if (scene.model == Model::coupled || root.has("zone") || root.has("mesh") || root.has("coupling")) {
-    std::vector<std::filesystem::path> mesh_files;
+    std::vector<dem::InputFile> mesh_files;
     const Surroundings surroundings = read_surroundings(root, scene.size, mesh_files);
     if (scene.model == Model::coupled) {
       scene.surroundings = surroundings;

@@ -7,6 +7,7 @@
 #include "impact/impactors/stl.h"
 #include "impact/scene_checks.h"
 #include "impact/scene_parts.h"
+#include "libdem/core/sha256.h"
 #include "libdem/law/cohesive_link.h"
 
 namespace impact {
@@ -36,7 +37,7 @@ void refuse_other_measures(const TomlTable& table, const std::string& shape) {
   }
 }
 
-Shape read_shape(const TomlTable& table, const std::string& shape, std::vector<std::filesystem::path>& inputs) {
+Shape read_shape(const TomlTable& table, const std::string& shape, std::vector<dem::InputFile>& inputs) {
   if (shape == "box") {
     const Vec3 size = read_lengths(table, "size", "0.3x0.3x0.3 m");
     return make_box(size, table.where("size"));
@@ -52,8 +53,10 @@ Shape read_shape(const TomlTable& table, const std::string& shape, std::vector<s
   }
   const std::filesystem::path file = read_path(table, "file");
   const double unit = read_length_unit(table);
-  inputs.push_back(file);
-  return told_about(table, "file", [&] { return make_mesh(read_stl(file, unit)); });
+  return told_about(table, "file", [&] {
+    inputs.push_back({"impactor", file, dem::sha256_of_file(file)});
+    return make_mesh(read_stl(file, unit));
+  });
 }
 
 MassProperties read_mass(const TomlTable& table, const Shape& shape) {

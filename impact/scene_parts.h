@@ -51,7 +51,7 @@ Region read_region(const dem::TomlTable& table);
 
 /// [zone], [mesh] and [coupling]. `size` is the structure's.
 Surroundings read_surroundings(const dem::TomlTable& root, const Vec3& size,
-                               std::vector<std::filesystem::path>& inputs);
+                               std::vector<dem::InputFile>& inputs);
 
 // scene_impactor.cpp
 

@@ -6,6 +6,7 @@
 
 #include "impact/fe/gmsh_mesh.h"
 #include "impact/scene_parts.h"
+#include "libdem/core/sha256.h"
 
 namespace impact {
 namespace {
@@ -137,7 +138,7 @@ void read_structured(const TomlTable& zone, const TomlTable& mesh, const Vec3& s
 }
 
 void read_mesh_file(const TomlTable& zone, const TomlTable& mesh, const Vec3& size, Surroundings& result,
-                    std::vector<std::filesystem::path>& inputs) {
+                    std::vector<dem::InputFile>& inputs) {
   if (zone.has("layers"))
     zone.fail("layers", "counts the elements of a structured mesh",
               "an overlap with a mesh from a file has a thickness, as in overlap = \"0.2 m\"");
@@ -154,8 +155,10 @@ void read_mesh_file(const TomlTable& zone, const TomlTable& mesh, const Vec3& si
   const std::filesystem::path file = read_path(mesh, "file");
   result.mesh_unit = read_length_unit(mesh);
   // Read now, so that whatever is wrong with it is told before anything is packed.
-  const fe::Mesh read =
-      told_about(mesh, "file", [&] { return fe::read_gmsh(file.string(), result.mesh_unit); });
+  const fe::Mesh read = told_about(mesh, "file", [&] {
+    inputs.push_back({"mesh", file, dem::sha256_of_file(file)});
+    return fe::read_gmsh(file.string(), result.mesh_unit);
+  });
   Vec3 low = read.nodes.front(), high = low;
   for (const Vec3& node : read.nodes) low = low.cwiseMin(node), high = high.cwiseMax(node);
   for (int k = 0; k < 3; ++k)
@@ -164,7 +167,6 @@ void read_mesh_file(const TomlTable& zone, const TomlTable& mesh, const Vec3& si
                 fmt::format("the mesh reaches from {:g} to {:g} m along {}", low[k], high[k], axis_name[k]),
                 fmt::format("it must be as large as the structure, from 0 to {:g} m", size[k]));
   result.mesh_file = file;
-  inputs.push_back(file);
 }
 
 void read_coupling(const TomlTable& table, Surroundings& result) {
@@ -187,8 +189,7 @@ void read_coupling(const TomlTable& table, Surroundings& result) {
 
 }  // namespace
 
-Surroundings read_surroundings(const TomlTable& root, const Vec3& size,
-                               std::vector<std::filesystem::path>& inputs) {
+Surroundings read_surroundings(const TomlTable& root, const Vec3& size, std::vector<dem::InputFile>& inputs) {
   const TomlTable zone = need(root, "zone"), mesh = need(root, "mesh");
   zone.allow_only({"low", "high", "centre", "size", "layers", "overlap", "cut_from_whole"});
   mesh.allow_only({"elements", "zone_elements", "growth", "largest", "file", "unit", "young_modulus",

@@ -22,6 +22,11 @@ constexpr std::size_t key_length = 64;
 constexpr const char* parts[] = {"tasks", "times", "specimens", "checkpoints"};
 
 std::string content_of(const fs::path& file) {
+  // Reading one would end in an error of the library that names no file.
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw dem::InputError(file.string(), "is a folder, and should be a file that a task has written",
+                          "remove it and run again");
   std::ifstream in(file, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in && !in.eof()) throw dem::RunError(fmt::format("{}: cannot be read", file.string()));

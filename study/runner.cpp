@@ -15,6 +15,7 @@
 #include "libdem/core/error.h"
 #include "libdem/core/interrupt.h"
 #include "libdem/core/memory.h"
+#include "libdem/run/checkpoint_interval.h"
 #include "study/plan_key.h"
 #include "study/specimen_store.h"
 #include "study/task_queue.h"
@@ -219,7 +220,7 @@ void Run::run_claimed(std::size_t index) {
   } catch (const dem::Interrupted&) {
     throw;
   } catch (const std::bad_alloc&) {
-    message = "out of memory";
+    throw;  // what the machine lacks now is not the task's failure
   } catch (const std::exception& error) {
     message = error.what();
   }
@@ -274,6 +275,7 @@ std::size_t run_missing(const Plan& plan, std::vector<Job> missing, const StudyF
 
 RunOutcome run_tasks(const Plan& plan, const std::vector<std::size_t>& chosen, const StudyFolder& folder,
                      const RunOptions& options, const dem::ProgressCallback& progress) {
+  dem::seconds_between_checkpoints(0);  // a wrong environment is refused here, not by every task
   const double memory = options.memory > 0 ? options.memory : dem::available_memory();
   std::vector<Job> jobs = jobs_of(plan, chosen);
   RunOutcome outcome;

@@ -11,12 +11,14 @@
 #include "libdem/config/nearest_name.h"
 #include "libdem/core/error.h"
 #include "libdem/core/input_file.h"
+#include "libdem/core/sha256.h"
 
 namespace dem {
 
 struct TomlTable::Node {
   std::shared_ptr<const toml::table> document;  // keeps `table` alive
   const toml::table* table = nullptr;
+  std::string sha256;  // of the text
   std::string file;
   std::string path;                // "" or "loading." or "virtual_test[2]."
   std::vector<std::string> asked;  // in the order of asking
@@ -120,6 +122,7 @@ struct TomlTable::Access {
       if (known->table == &table) return TomlTable(known);
     auto child = std::make_shared<Node>();
     child->document = owner.node->document;
+    child->sha256 = owner.node->sha256;
     child->table = &table;
     child->file = owner.node->file;
     child->path = path;
@@ -169,6 +172,7 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   try {
     auto root = std::make_shared<Node>();
     root->document = std::make_shared<const toml::table>(toml::parse(text));
+    root->sha256 = sha256_of(std::string(text));
     root->table = root->document.get();
     root->file = name;
     return TomlTable(root);
@@ -355,5 +359,6 @@ void TomlTable::fail(std::string_view key, const std::string& what_is_wrong, con
   throw InputError(where(key), what_is_wrong, remedy);
 }
 const std::string& TomlTable::file() const { return node->file; }
+const std::string& TomlTable::sha256() const { return node->sha256; }
 
 }  // namespace dem

@@ -81,6 +81,8 @@ class TomlTable {
                          const std::string& remedy) const;
   /// The file's name as it was given.
   const std::string& file() const;
+  /// Of the whole text that was read.
+  const std::string& sha256() const;
 
  private:
   static constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();

@@ -151,7 +151,10 @@ void apply(StateRead&& read, Assembly& assembly, StepRoom& room) {
 void require_same(const Hdf5File& file, const Belonging& belongs_to) {
   for (const auto& [what, sha256] : belongs_to)
     if (!file.has_attribute("belongs_to", what) || file.text_attribute("belongs_to", what) != sha256)
-      throw InputError(file.path().string(), fmt::format("belongs to a run with another {}", what), start_anew);
+      throw InputError(
+          file.path().string(),
+          fmt::format("belongs to a run with {} {}", what.ends_with('s') ? "other" : "another", what),
+          start_anew);
 }
 
 }  // namespace

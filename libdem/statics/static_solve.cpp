@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libdem/core/error.h"
+#include "libdem/core/interrupt.h"
 
 namespace dem {
 namespace {
@@ -88,6 +89,7 @@ StaticSolution solve_static(const LinkNetwork& network, std::vector<std::uint8_t
   StaticSolution solution;
   const int most = 20000;
   while (dot(residual, residual) > goal) {
+    if (interrupt_requested()) throw Interrupted("stopped by a signal");
     if (++solution.iterations > most || !std::isfinite(rz))
       throw RunError(
           "the static solve of the link network does not converge; the specimen may be loose or cut in two");

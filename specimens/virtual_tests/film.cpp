@@ -71,7 +71,11 @@ void Film::keep_in(dem::NamedNumbers& numbers) const {
 }
 
 void Film::restore(const dem::NamedNumbers& numbers, const std::filesystem::path& file) {
-  if (!is_wanted() || !numbers.contains("film_calls")) return;
+  if (!is_wanted()) return;
+  if (!numbers.contains("film_calls"))
+    throw dem::InputError(file.string(),
+                          "was made without pictures, and pictures of the whole course are wanted",
+                          "go on with --frames 0 as before, or start anew without --resume");
   const auto column = [&](const char* name) {
     const auto found = numbers.find(name);
     return found == numbers.end() ? std::vector<double>{} : found->second;

@@ -37,8 +37,8 @@ class Film {
 
   /// What a checkpoint keeps of it; nothing if no picture is wanted.
   void keep_in(dem::NamedNumbers& numbers) const;
-  /// Goes on from there. A checkpoint without pictures leaves the film as it is: it begins where the test goes
-  /// on. Throws InputError that names `file` if the columns do not fit together.
+  /// Goes on from there. Throws InputError that names `file` if pictures are wanted and it has none (those of
+  /// the test's beginning would be missing), or if the columns do not fit together.
   void restore(const dem::NamedNumbers& numbers, const std::filesystem::path& file);
 
  private:

@@ -160,6 +160,39 @@ TEST_F(Checkpoint, AnotherKindOrVersionIsRefusedWithAReason) {
               HasSubstr("is a spall-checkpoint file, not a spall-calibration-journal file"));
 }
 
+TEST_F(Checkpoint, SaysInWordsWhatDiffers) {
+  for (const auto& [what, words] :
+       {std::pair("specimen", "another specimen;"), {"options", "other options;"}}) {
+    StateFile state, other;
+    state.belongs_to = {{what, std::string(64, 'a')}};
+    state.write(file());
+    other.belongs_to = {{what, std::string(64, 'b')}};
+    try {
+      dem::read_checkpoint(file(), other.belongs_to, other.assembly, other.room);
+      ADD_FAILURE() << what;
+    } catch (const dem::InputError& refusal) {
+      EXPECT_THAT(refusal.what(), HasSubstr(std::string("belongs to a run with ") + words));
+    }
+  }
+}
+
+TEST_F(Checkpoint, AWrongIntervalIsRefusedBeforeAStudyOrAFitStarts) {
+  write("card.toml", cli::good_card);
+  write("study.toml",
+        "card = \"card.toml\"\ntests = [\"tension\"]\n[[specimen]]\nsize = \"0.3x0.2x0.2 m\"\n"
+        "elements = 1100\nseeds = 1\n");
+  write("case.toml",
+        "[targets]\nE = \"30 GPa\"\nft = \"3 MPa\"\n[fixed]\nzeta = 5\nCo = \"8 MPa\"\n"
+        "[specimen]\nsize = \"0.4x0.2x0.2 m\"\nelements = 1400\n");
+  ::setenv("SPALL_CHECKPOINT_SECONDS", "abc", 1);
+  const std::string study = refusal(2, {"study", "run", "study.toml", "-o", "out", "--quiet"});
+  const std::string fit = refusal(2, {"calibrate", "case.toml", "-o", "out", "--quiet"});
+  ::unsetenv("SPALL_CHECKPOINT_SECONDS");
+  for (const std::string& said : {study, fit})
+    EXPECT_THAT(said, HasSubstr("spall: SPALL_CHECKPOINT_SECONDS: is \"abc\"; give a number from 0"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_F(Checkpoint, AnEarlierJournalOfAFitLeadsToTheSameCard) {
   write("case.toml",
         "[targets]\nE = \"30 GPa\"\nft = \"3 MPa\"\n[fixed]\nzeta = 5\nCo = \"8 MPa\"\n"

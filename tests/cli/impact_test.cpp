@@ -75,6 +75,13 @@ class Impact : public cli::Command {
     command.insert(command.end(), more.begin(), more.end());
     return command;
   }
+  /// The exit code of a run that is told to stop once it moves.
+  int stop_at_first_picture(pid_t child) const {
+    for (int k = 0; k < 600 && !std::filesystem::exists(folder / "out/frames/elements_0001.hdf"); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ::kill(child, SIGINT);
+    return wait_for(child).code;
+  }
   nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(read(name)); }
 };
 
@@ -193,6 +200,35 @@ TEST_F(Impact, WhatShowsOnlyOncePackedCostsNoEarlierResult) {
 TEST_F(Impact, AFolderThatCannotBeWrittenIsExitCode1) {
   write("out", "a file where the folder should be");
   EXPECT_THAT(refusal(1, impact()), HasSubstr("out"));
+}
+
+TEST_F(Impact, ACheckpointBelongsToTheCaseThatWasReadThoughItWasEditedWhileItPacked) {
+  const std::string long_one = replaced(slab, "0.4 ms", "4 ms");
+  write("slab.toml", long_one);
+  const pid_t child = start(impact("out", {"--threads", "1"}));
+  // The folder is made when the case has been read, before it is packed.
+  for (int k = 0; k < 5000 && !std::filesystem::exists(folder / "out"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  write("slab.toml", replaced(long_one, "20 m/s", "30 m/s"));
+  ASSERT_EQ(stop_at_first_picture(child), 3);
+  EXPECT_THAT(refusal(2, impact("out", {"--resume", "--quiet"})),
+              HasSubstr("out/checkpoint.h5: belongs to a run with another case; go on with what it was"));
+  write("slab.toml", long_one);
+  const auto resumed = spall(impact("out", {"--resume", "--quiet"}));
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+}
+
+TEST_F(Impact, GoesOnWithACardThatIsCalledAsTheCaseIs) {
+  std::filesystem::create_directory(folder / "cards");
+  write("cards/slab.toml", good_card);
+  write("slab.toml", replaced(replaced(slab, "0.4 ms", "4 ms"), "card.toml", "cards/slab.toml"));
+  ASSERT_EQ(stop_at_first_picture(start(impact("out", {"--threads", "1"}))), 3);
+  write("cards/slab.toml", good_card + "# another\n");
+  EXPECT_THAT(refusal(2, impact("out", {"--resume", "--quiet"})),
+              HasSubstr("belongs to a run with another card;"));
+  write("cards/slab.toml", good_card);
+  const auto resumed = spall(impact("out", {"--resume", "--quiet"}));
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
 }
 
 TEST_F(Impact, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {

@@ -127,6 +127,29 @@ TEST_F(Study, LeavesRowsSummaryAndReport) {
   EXPECT_EQ(json("out/result.json"), result);
 }
 
+TEST_F(Study, TellsTheCardThatItReadThoughItIsGoneAtTheEnd) {
+  const std::string card = read("card.toml");
+  const pid_t child = start({"study", "run", "study.toml", "-o", "out", "--quiet"});
+  ASSERT_TRUE(wait_for_a_result("out"));
+  std::filesystem::remove(folder / "card.toml");
+  const auto run = wait_for(child);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto inputs = json("out/run.json")["inputs"];
+  write("card.toml", card);
+  ASSERT_EQ(spall({"study", "report", "study.toml", "-o", "out", "--quiet"}).code, 0);
+  EXPECT_EQ(inputs, json("out/run.json")["inputs"]);
+}
+
+TEST_F(Study, NamesAFolderThatStandsWhereAResultShould) {
+  ASSERT_EQ(spall({"study", "run", "study.toml", "-o", "out", "--tasks", "1", "--quiet"}).code, 0);
+  ASSERT_EQ(results("out").size(), 1u);
+  const auto file = folder / "out/tasks" / results("out").begin()->first;
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_THAT(refusal(2, {"study", "report", "study.toml", "-o", "out", "--quiet"}),
+              HasSubstr(file.filename().string() + ": is a folder, and should be a file"));
+}
+
 TEST_F(Study, PartsMakeTheSameBitsAsTheWhole) {
   const std::string whole = undisturbed();
   for (const std::vector<std::string>& part :

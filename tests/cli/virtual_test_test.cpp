@@ -274,6 +274,19 @@ TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
   }
 }
 
+TEST_F(VirtualTest, ASignalInTheRateCheckSaysHowToGoOn) {
+  make_specimen();
+  const pid_t child = start(test("compression", {"--threads", "1", "--rate-check"}));
+  // Its curve is there when the first of the two tests is over.
+  for (int k = 0; k < 24000 && !std::filesystem::exists(folder / "out/curves.csv"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ::kill(child, SIGINT);
+  const auto stopped = wait_for(child);
+  EXPECT_EQ(stopped.code, 3) << stopped.err;
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("once more at half the speed: go on with "),
+                                 HasSubstr("--threads 1 --rate-check --resume\n")));
+}
+
 TEST_F(VirtualTest, ResumeWithoutACheckpointSaysSoAndStartsAnew) {
   make_specimen();
   const auto run = spall(test("tension", {"--max-strain", "0.01 permil", "--threads", "1", "--resume"}));

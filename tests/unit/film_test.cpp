@@ -95,3 +95,14 @@ TEST(Film, GoesOnFromACheckpointAsIfNothingHadHappened) {
   numbers["film_damage"].pop_back();
   EXPECT_THROW(second.restore(numbers, "checkpoint.h5"), dem::InputError);
 }
+
+TEST(Film, RefusesACheckpointThatLacksThePicturesOfTheBeginning) {
+  Film wanted(4), taken(4), unwanted(0);
+  EXPECT_THROW(wanted.restore({}, "checkpoint.h5"), dem::InputError);
+  dem::Assembly a = row_of_three();
+  watch(taken, a, 0, 17, 13);
+  dem::NamedNumbers numbers;
+  taken.keep_in(numbers);
+  EXPECT_NO_THROW(unwanted.restore(numbers, "checkpoint.h5"));
+  EXPECT_TRUE(unwanted.pictures().empty());
+}

@@ -12,6 +12,7 @@
 
 #include "impact/scene_checks.h"
 #include "libdem/core/error.h"
+#include "libdem/core/sha256.h"
 #include "libdem/law/cohesive_link.h"
 #include "specimens/specimen_file.h"
 #include "tests/unit/scene_refusals.h"
@@ -31,6 +32,12 @@ namespace fs = std::filesystem;
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<fs::path> files_of(const Scene& scene) {
+  std::vector<fs::path> files;
+  for (const dem::InputFile& input : scene.inputs) files.push_back(input.file);
+  return files;
 }
 
 /// A Gmsh mesh of one brick.
@@ -144,7 +151,18 @@ TEST_F(SceneFile, GivesWhatItSays) {
   EXPECT_EQ(scene.sample_interval, 1e-6) << "a two-thousandth";
   EXPECT_EQ(scene.frames, 20);
   EXPECT_EQ(scene.compressive_strength, 0);
-  EXPECT_THAT(scene.inputs, ElementsAre(folder / "case.toml", folder / "card.toml"));
+  EXPECT_THAT(files_of(scene), ElementsAre(folder / "case.toml", folder / "card.toml"));
+}
+
+TEST_F(SceneFile, RemembersWhatWasReadAndNotWhatTheFilesBecome) {
+  const std::string text = edited(box_measures(), "shape = \"mesh\"\nfile = \"rock.stl\"\nunit = \"mm\"");
+  const std::string card = content_of(folder / "card.toml"), rock = content_of(folder / "rock.stl");
+  const Scene scene = read(text);
+  for (const char* name : {"case.toml", "card.toml", "rock.stl"}) write(name, "another");
+  ASSERT_EQ(scene.inputs.size(), 3u);
+  EXPECT_EQ(scene.inputs[0].sha256, dem::sha256_of(text));
+  EXPECT_EQ(scene.inputs[1].sha256, dem::sha256_of(card));
+  EXPECT_EQ(scene.inputs[2].sha256, dem::sha256_of(rock));
 }
 
 TEST_F(SceneFile, OneWordSwitchesTheModel) {
@@ -193,7 +211,7 @@ TEST_F(SceneFile, ReadsEveryShape) {
   EXPECT_EQ(std::get<impact::Cylinder>(cylinder.shape).nose, impact::Nose::hemisphere);
   const Scene stl = read(edited(box_measures(), "shape = \"mesh\"\nfile = \"rock.stl\"\nunit = \"mm\""));
   EXPECT_NEAR(stl.impactor->body.mass, 2.5, 1e-9);
-  EXPECT_THAT(stl.inputs, ElementsAre(folder / "case.toml", folder / "card.toml", folder / "rock.stl"));
+  EXPECT_THAT(files_of(stl), ElementsAre(folder / "case.toml", folder / "card.toml", folder / "rock.stl"));
   EXPECT_EQ(read(edited("density = \"2500 kg/m3\"", "mass = \"3 kg\"")).impactor->body.mass, 3);
 }
 
@@ -223,7 +241,7 @@ TEST_F(SceneFile, ReadsAMeshAndASpecimen) {
   EXPECT_EQ(meshed.surroundings->mesh_unit, 0.001);
   EXPECT_EQ(meshed.surroundings->overlap, 0.1);
   EXPECT_EQ(meshed.surroundings->young_modulus, 38e9);
-  EXPECT_THAT(meshed.inputs, ElementsAre(folder / "case.toml", folder / "card.toml", folder / "slab.msh"));
+  EXPECT_THAT(files_of(meshed), ElementsAre(folder / "case.toml", folder / "card.toml", folder / "slab.msh"));
   EXPECT_EQ(read(edited("[20, 10, 4]", "[20, 10, 4]\nmodulus = \"membrane\"")).surroundings->modulus,
             impact::PackModulus::membrane);
   const Scene packed = read(edited("elements = 12000\nseed = 7", "specimen = \"zone.h5\""));

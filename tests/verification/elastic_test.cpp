@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libdem/core/error.h"
+#include "libdem/core/interrupt.h"
 #include "libdem/material/micro_macro.h"
 #include "libdem/statics/static_solve.h"
 #include "specimens/packing.h"
@@ -220,4 +221,11 @@ TEST(StaticSolve, StoresNoMoreEnergyThanAnyOtherFieldWithItsPrescribedValues) {
   network.multiply(solution.displacement, force);
   for (std::size_t k = 0; k < size; ++k) (held[k] ? reaction : residual) += force[k] * force[k];
   EXPECT_LT(std::sqrt(residual), 1e-8 * std::sqrt(reaction));
+}
+
+TEST(StaticSolve, StopsAtASignal) {
+  dem::set_interrupt(true);
+  EXPECT_THROW(virtual_tests::run_elastic(prism(), 1e9, 0.2), dem::Interrupted);
+  dem::set_interrupt(false);
+  EXPECT_NO_THROW(virtual_tests::run_elastic(prism(), 1e9, 0.2));
 }
