@@ -58,7 +58,7 @@ TEST(ImpactorStl, ReadsAFile) {
   EXPECT_EQ(impact::read_stl(file, 1).triangles().size(), 12u);
   std::filesystem::remove(file);
   EXPECT_THAT(message_of([&] { impact::read_stl(file, 1); }),
-              HasSubstr("spall_impactor_stl_test.stl: No such"));
+              HasSubstr("spall_impactor_stl_test.stl: there is no such file"));
   EXPECT_THAT(message_of([&] { impact::read_stl(file.parent_path(), 1); }), HasSubstr("folder"));
 }
 

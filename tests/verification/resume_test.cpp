@@ -189,8 +189,8 @@ TEST_F(Resume, RefusesACheckpointOfAnotherSpecimenCardOrTest) {
   EXPECT_THAT(refusal(options, small_block(), other), HasSubstr("another card"));
   UniaxialOptions slower = options;
   slower.damping = 0.2;
-  EXPECT_THAT(refusal(slower, small_block(), card), HasSubstr("another options"));
-  EXPECT_THAT(refusal(options_for(Loading::compression), small_block(), card), HasSubstr("another options"));
+  EXPECT_THAT(refusal(slower, small_block(), card), HasSubstr("other options"));
+  EXPECT_THAT(refusal(options_for(Loading::compression), small_block(), card), HasSubstr("other options"));
 }
 
 TEST_F(Resume, RefusesWhatIsNoCheckpointOrIsDamaged) {

@@ -74,7 +74,7 @@ TEST(Watch, WhatIsNoNumberIsFoundInTheStepThatMakesItWithItsElement) {
 
 TEST(Watch, AStepBeyondTheCriticalOneIsStoppedBeforeNumbersOverflow) {
   dem::MaterialCard unbreakable;
-  unbreakable.tensile_strength = unbreakable.cohesion = 1e20;
+  unbreakable.tensile_strength = unbreakable.cohesion = 1e15;
   dem::Assembly assembly = virtual_tests::make_assembly(prism(), unbreakable);
   assembly.particles.set_velocity(7, {1e-3, 0, 0});
   long step = 0;
