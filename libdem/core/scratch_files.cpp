@@ -47,7 +47,7 @@ void sweep_scratch(const std::filesystem::path& folder) {
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
     if (is_left_over(entry->path().filename().string(), host)) left.push_back(entry->path());
-  for (const std::filesystem::path& file : left) std::filesystem::remove(file, ignored);
+  for (const std::filesystem::path& file : left) std::filesystem::remove_all(file, ignored);
 }
 
 }  // namespace dem
