@@ -1,10 +1,9 @@
 #include "libdem/core/interrupt.h"
 
-#include <time.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <ctime>
 
 namespace dem {
 namespace {
