@@ -119,7 +119,7 @@ void refuse_numbers_in_a_unit(std::string_view unit, Quantity quantity, const st
     // An exponent stands behind its unit, as in m3, m^3 or s-2; "1/s" is a unit too.
     const bool begins =
         k == 0 || std::string_view(" ,.*/").find(unit[k - 1]) != std::string_view::npos ||
-        (k > 1 && unit.substr(k - 2, 2) == "\u00B7") ||
+        unit.substr(0, k).ends_with("\u00B7") ||
         ((unit[k - 1] == 'x' || unit[k - 1] == '-' || unit[k - 1] == '+') && (k == 1 || unit[k - 2] == ' '));
     if (number && begins && unit.substr(k, 2) != "1/")
       refuse(fmt::format("\"{}\" follows the number: one number and its unit are due", unit));
