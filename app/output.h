@@ -58,10 +58,10 @@ class RunFolder {
   /// Whether the folder already holds the result of this command with these inputs, however it was to be told
   /// and on how many threads. Call it once all inputs are added.
   bool is_finished() const;
-  /// Removes what an earlier run ended with: result.json, run.json, report.html and the others that are named,
-  /// but for this run's inputs. Whoever computes calls it, or `compute_anew`, before anything is written, so
-  /// that a run that is killed leaves no result of an earlier one. Throws RunError; InputError
-  /// if one of these files is an input, whose place the result would take.
+  /// Removes what an earlier run ended with: result.json, run.json, report.html and the others that are named.
+  /// Whoever computes calls it, or `compute_anew`, before anything is written, so that a run that is killed
+  /// leaves no result of an earlier one. Throws RunError; InputError if one of these files is an input of this
+  /// run, whose place the result would take.
   void remove_results(const std::vector<std::string>& others) const;
   /// What `compute` returns; the same files are out of its way, and frames/ where `goes_on` is false. They are
   /// removed when it ends, but stand in their places again if it throws InputError, or is stopped before it has
