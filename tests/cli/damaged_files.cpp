@@ -117,6 +117,11 @@ const std::map<std::string, Edit>& edits() {
        [](Columns& c) { c.links[2 * 8] = c.links[2 * 7], c.links[2 * 8 + 1] = c.links[2 * 7 + 1]; }},
       {"link of no length", [](Columns& c) { c.distances[7] = 0; }},
       {"link of NaN length", [](Columns& c) { c.distances[7] = none; }},
+      {"link of another length", [](Columns& c) { c.distances[7] *= 1000; }},
+      {"elements that fill nothing",
+       [](Columns& c) {
+         for (double& radius : c.radii) radius *= 1e-3;
+       }},
       {"one length less", [](Columns& c) { c.distances.pop_back(); }},
       {"links of three", [](Columns& c) { c.link_columns = 3, c.links.resize(3 * c.distances.size()); }},
       {"edited", [](Columns& c) { c.radii[7] *= 1.001, c.sha256 = sound_specimen().sha256(); }},

@@ -1,7 +1,9 @@
 // spall report --png and --svg: which files there are, that they are pictures, and each way in which they are
 // refused.
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "libdem/io/hdf5.h"
 #include "tests/cli/command.h"
 
 using testing::AllOf;
@@ -87,6 +89,41 @@ TEST_F(ReportPictures, ChartsAndTheSceneOfATestAreFilesNumberedInTheReportsOrder
               AllOf(HasSubstr("--frame"), HasSubstr("or last")));
   EXPECT_THAT(refusal(2, {"report", "run", "--png", "--field", "damagge"}),
               HasSubstr("did you mean \"damage\"?"));
+}
+
+TEST_F(ReportPictures, FramesThatAreDamagedAreRefusedByName) {
+  namespace fs = std::filesystem;
+  run_tension();
+  const fs::path frames = folder / "run/frames";
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(frames))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("elements_"))
+      names.push_back(name);
+  std::sort(names.begin(), names.end());
+  const auto refused = [&](const std::string& wrong) {
+    for (const char* form : {"--png", "--quiet"})
+      EXPECT_THAT(refusal(2, {"report", "run", form}), HasSubstr(wrong)) << form;
+  };
+  const auto put = [&](const std::string& name, const std::vector<double>& points, std::size_t columns,
+                       const std::vector<std::int64_t>& corners) {
+    dem::Hdf5File out = dem::Hdf5File::create(frames / name);
+    out.write("VTKHDF/Points", points, columns);
+    out.write("VTKHDF/Connectivity", corners);
+    out.close();
+  };
+
+  // An impactor of one point, of whose triangles one names another.
+  for (const std::string& name : names) put("impactor" + name.substr(8), {0, 0, 0}, 3, {0, 0, 999999999});
+  write("run/frames/impactor.hdf.series",
+        cli::replaced(read("run/frames/elements.hdf.series"), "elements", "impactor"));
+  refused("impactor_0000.hdf: it names point 999999999, of 1");
+  for (const std::string& name : names) put("impactor" + name.substr(8), {0, 0, 0}, 3, {0, 0, -1});
+  refused("impactor_0000.hdf: it names point -1, of 1");
+
+  put(names.front(), {0, std::numeric_limits<double>::quiet_NaN(), 0}, 3, {});
+  refused(names.front() + ": a number of VTKHDF/Points is not finite");
+  put(names.front(), {0, 0, 0}, 0, {});
+  refused(names.front() + ": dataset VTKHDF/Points: has shape (3)");
 }
 
 TEST_F(ReportPictures, MistakesAreToldInOneLineAndNothingIsWritten) {
