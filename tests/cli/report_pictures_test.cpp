@@ -114,8 +114,10 @@ TEST_F(ReportPictures, FramesThatAreDamagedAreRefusedByName) {
 
   // An impactor of one point, of whose triangles one names another.
   for (const std::string& name : names) put("impactor" + name.substr(8), {0, 0, 0}, 3, {0, 0, 999999999});
-  write("run/frames/impactor.hdf.series",
-        cli::replaced(read("run/frames/elements.hdf.series"), "elements", "impactor"));
+  std::string series = read("run/frames/elements.hdf.series");
+  for (std::size_t at = 0; (at = series.find("elements", at)) != std::string::npos;)
+    series.replace(at, 8, "impactor");
+  write("run/frames/impactor.hdf.series", series);
   refused("impactor_0000.hdf: it names point 999999999, of 1");
   for (const std::string& name : names) put("impactor" + name.substr(8), {0, 0, 0}, 3, {0, 0, -1});
   refused("impactor_0000.hdf: it names point -1, of 1");
