@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <thread>
 
 #include "libdem/config/nearest_name.h"
 #include "libdem/core/atomic_file.h"
@@ -15,7 +14,9 @@
 namespace app {
 
 int CommonOptions::thread_count() const {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // Asked once: what use_threads() sets is no default.
+  static const int usual = omp_get_max_threads();
+  return threads > 0 ? threads : usual;
 }
 
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
@@ -28,7 +29,8 @@ CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string&
     begin = end + 1;
   }
   verb->footer(footer);
-  verb->add_option("--threads", common.threads, "Threads of the computation (default: one a core)")
+  verb->add_option("--threads", common.threads,
+                   "Threads of the computation (default: OMP_NUM_THREADS, or one a core)")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("--json", common.json, "Print the result as JSON on standard output, and nothing else there");
   verb->add_flag("--quiet", common.quiet, "Print nothing but errors");

@@ -15,7 +15,7 @@ enum ExitCode : int { done = 0, run_failed = 1, input_wrong = 2, stopped = 3, to
 
 /// The options that every verb has.
 struct CommonOptions {
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;  ///< 0: OMP_NUM_THREADS, or one a core
   bool json = false;
   bool quiet = false;
   /// The number of threads that a run will use.

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "app/output.h"
+#include "app/short_memory.h"
 #include "app/streams.h"
 #include "app/verbs.h"
 #include "app/version.h"
@@ -18,9 +21,9 @@
 namespace {
 
 int tell(int code, std::string message) {
-  // One line, whatever a library put into its message.
+  // One line and no escapes to the terminal, whatever a library or a file put into its message.
   std::replace_if(
-      message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+      message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
   app::put(stderr, message + "\n");
   return code;
 }
@@ -37,7 +40,12 @@ int run(const std::function<int()>& action) {
   } catch (const dem::Interrupted& error) {
     return fail(app::stopped, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(app::run_failed, "out of memory; use fewer elements or a machine with more memory");
+    app::put(stderr, app::out_of_memory);
+    return app::run_failed;
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(app::run_failed, error.what());
+    return fail(app::run_failed,
+                "no thread can be started; look at the limits that ulimit -v and ulimit -u print");
   } catch (const std::exception& error) {
     return fail(app::run_failed, error.what());
   }
@@ -46,7 +54,9 @@ int run(const std::function<int()>& action) {
 }  // namespace
 
 int main(int count, char** values) {
+  app::begin_again_where_address_space_is_limited(values);
   app::prepare_standard_streams();
+  app::say_where_memory_lacked();
   app::Invocation invocation;
   invocation.arguments.assign(values, values + count);
   invocation.started = app::utc_now();

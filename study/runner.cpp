@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "libdem/core/error.h"
@@ -72,6 +73,10 @@ class Run {
   std::size_t jobs_run() const { return ran; }
 
  private:
+  /// Throws RunError if the machine gives no more threads; those that it gave are in `workers`.
+  void start(std::vector<std::thread>& workers);
+  /// Until all is done, or something ends the run.
+  void watch(const dem::ProgressCallback& progress);
   void work();
   void do_job(std::size_t index);
   /// Done, failed, or not at all: settles the job if nothing needs to be run. True if it is settled.
@@ -104,24 +109,42 @@ class Run {
 
 void Run::go(const dem::ProgressCallback& progress) {
   std::vector<std::thread> workers;
-  const auto count = std::min<std::size_t>(static_cast<std::size_t>(options.threads), queue.all().size());
-  for (std::size_t k = 0; k < count; ++k) workers.emplace_back([this] { work(); });
-  {
-    std::unique_lock lock(mutex);
-    while (!queue.all_done() && !must_stop()) {
-      changed.wait_for(lock, between_reports);
-      if (!progress) continue;
-      const dem::Progress now = where_it_stands();
-      lock.unlock();
-      progress(now);
-      lock.lock();
-    }
-    stopping = stopping || dem::interrupt_requested();
+  try {
+    start(workers);
+    watch(progress);
+  } catch (...) {
+    stop_for(std::current_exception());  // whatever went wrong here: threads must end before their study does
   }
   changed.notify_all();
   for (std::thread& worker : workers) worker.join();
   if (fatal) std::rethrow_exception(fatal);
   if (!queue.all_done()) throw dem::Interrupted("stopped by a signal");
+}
+
+void Run::start(std::vector<std::thread>& workers) {
+  const auto count = std::min<std::size_t>(static_cast<std::size_t>(options.threads), queue.all().size());
+  workers.reserve(count);
+  try {
+    while (workers.size() < count) workers.emplace_back([this] { work(); });
+  } catch (const std::system_error& error) {
+    throw dem::RunError(
+        fmt::format("{} of {} threads can be started: {}; give fewer with --threads, or look at the limits "
+                    "that ulimit -v and ulimit -u print",
+                    workers.size(), count, error.code().message()));
+  }
+}
+
+void Run::watch(const dem::ProgressCallback& progress) {
+  std::unique_lock lock(mutex);
+  while (!queue.all_done() && !must_stop()) {
+    changed.wait_for(lock, between_reports);
+    if (!progress) continue;
+    const dem::Progress now = where_it_stands();
+    lock.unlock();
+    progress(now);
+    lock.lock();
+  }
+  stopping = stopping || dem::interrupt_requested();
 }
 
 dem::Progress Run::where_it_stands() {

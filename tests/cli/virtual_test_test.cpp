@@ -37,6 +37,16 @@ class VirtualTest : public cli::Command {
   }
 };
 
+TEST_F(VirtualTest, TakesAsManyThreadsAsTheEnvironmentSaysUnlessAnOptionDoes) {
+  make_specimen();
+  const std::string elastic =
+      "OMP_NUM_THREADS=3 " SPALL_BINARY " test elastic --specimen s1.h5 --card card.toml --quiet -o ";
+  ASSERT_EQ(shell(elastic + "three").code, 0);
+  EXPECT_EQ(json("three/run.json")["threads"], 3);
+  ASSERT_EQ(shell(elastic + "one --threads 1").code, 0);
+  EXPECT_EQ(json("one/run.json")["threads"], 1);
+}
+
 TEST_F(VirtualTest, ElasticLeavesResultAndProvenance) {
   make_specimen();
   const auto run = spall(test("elastic", {"--json", "--threads", "1"}));
