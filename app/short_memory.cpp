@@ -19,7 +19,8 @@ std::terminate_handler usual_end = nullptr;
 /// Asks for no memory, and for no lock that another thread may hold.
 [[noreturn]] void end_at_once() {
   try {
-    if (std::current_exception()) throw;
+    // Unlike rethrow_exception() it takes no memory. In a handler of terminate() there is one to throw.
+    if (std::current_exception()) throw;  // cppcheck-suppress rethrowNoCurrentException
   } catch (const std::bad_alloc&) {
     static std::atomic_flag told;
     while (told.test_and_set()) pause();  // another thread says it, and ends this one too
