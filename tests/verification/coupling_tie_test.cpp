@@ -124,7 +124,10 @@ std::string refusal(Act act) {
 }  // namespace
 
 class Tie : public testing::TestWithParam<Ties> {};
-INSTANTIATE_TEST_SUITE_P(Both, Tie, testing::Values(Ties::displacements, Ties::displacements_and_rotations));
+INSTANTIATE_TEST_SUITE_P(Both, Tie, testing::Values(Ties::displacements, Ties::displacements_and_rotations),
+                         [](const auto& of) {
+                           return of.param == Ties::displacements ? "displacements" : "rotations";
+                         });
 
 TEST_P(Tie, NodesSolveEqualsTheDenseSolveOfAllMultipliers) {
   for (const bool supported : {false, true}) {

@@ -26,7 +26,10 @@ fe::GaussWeights uneven_weights() { return {0.02, 0.9, 0.3, 0.5, 0.7, 0.1, 0.98,
 
 class Hexahedron : public testing::TestWithParam<Formulation> {};
 INSTANTIATE_TEST_SUITE_P(Both, Hexahedron,
-                         testing::Values(Formulation::trilinear, Formulation::incompatible_modes));
+                         testing::Values(Formulation::trilinear, Formulation::incompatible_modes),
+                         [](const auto& of) {
+                           return of.param == Formulation::trilinear ? "trilinear" : "modes";
+                         });
 
 TEST(ShapeFunctions, SumToOneAndReproduceLinearFields) {
   const fe::Corners corners = skewed_corners(5);
