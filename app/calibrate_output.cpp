@@ -1,9 +1,11 @@
 #include "app/calibrate_output.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 #include "calibrate/curve_misfit.h"
@@ -93,6 +95,16 @@ Json measured_json(const lab::Measured& measured) {
   return {{"mean", measured.mean}, {"std", measured.std}, {"min", measured.min}, {"max", measured.max}};
 }
 
+/// What was done to each curve before it was used, a line a file.
+Json preparation_json(const lab::Series& series) {
+  Json list = Json::array();
+  for (const lab::LabCurve& curve : series.curves)
+    if (!curve.notes.empty())
+      list.push_back(fmt::format("{}: {}", std::filesystem::path(curve.file).filename().string(),
+                                 fmt::join(curve.notes, "; ")));
+  return list;
+}
+
 void add_laboratory(Json& laboratory, const char* test, const std::optional<lab::Series>& series,
                     const std::optional<lab::LabCurve>& reference) {
   if (series)
@@ -100,6 +112,7 @@ void add_laboratory(Json& laboratory, const char* test, const std::optional<lab:
                         {"E", measured_json(series->E)},
                         {"peak_stress", measured_json(series->strength)},
                         {"peak_strain", measured_json(series->strain_at_peak)},
+                        {"preparation", preparation_json(*series)},
                         {"notes", series->notes}};
   else if (reference)
     laboratory[test] = {{"specimens", 0}, {"code", reference->file}};

@@ -69,17 +69,17 @@ calibrate::CalibrationResult run(const CalibrateOptions& options, const Invocati
 int calibrate_into_folder(const CalibrateOptions& options, const Invocation& invocation,
                           const calibrate::CalibrationCase& wanted) {
   RunFolder folder(options.output, invocation, options.common);
-  for (const std::filesystem::path& input : wanted.inputs) folder.add_input(input);
+  for (const dem::InputFile& input : wanted.inputs) folder.add_input(input);
   for (const std::uint64_t seed : wanted.fit_seeds) folder.add_seed(seed);
   for (const std::uint64_t seed : wanted.check_seeds) folder.add_seed(seed);
   folder.claim();
   Console console(options.common);
   if (options.resume && folder.is_finished())
     return leave_as_it_is(folder, console).value("complete", false) ? done : tolerance_missed;
-  calibrate::TestJournal journal(folder.file("checkpoint.h5"), options.resume);
+  calibrate::TestJournal journal(folder.checkpoint(), options.resume);
   if (options.resume && journal.size() == 0)
-    console.remark(fmt::format("{}: there is nothing to go on from; starting anew",
-                               folder.file("checkpoint.h5").string()));
+    console.remark(
+        fmt::format("{}: there is nothing to go on from; starting anew", folder.checkpoint().string()));
 
   const calibrate::CalibrationResult found = folder.compute_anew({"card.toml", "curves.csv"}, false, [&] {
     return run(options, invocation, wanted, journal, folder, console);

@@ -309,6 +309,15 @@ std::string for_people(std::string words) {
   return capital(words);
 }
 
+/// What was done to the laboratory's curves before they were used.
+Json preparation_of(const Json& result) {
+  Json all = Json::array();
+  const Json laboratory = result.value("laboratory", Json::object());
+  for (const auto& [test, lab] : laboratory.items())
+    for (const Json& note : list_of(lab, "preparation")) all.push_back(note);
+  return all;
+}
+
 std::optional<report::Section> remarks(const char* title, const Json& list) {
   report::List shown;
   for (const Json& item : list)
@@ -361,6 +370,8 @@ report::Page calibration_page(const Json& result, const std::filesystem::path& f
   for (report::Chart& chart : progress_charts(result)) course.blocks.emplace_back(std::move(chart));
   if (!course.blocks.empty()) page.sections.push_back(std::move(course));
   if (!list_of(result, "specimens").empty()) page.sections.push_back({"Specimens", {specimens_table(result)}});
+  if (auto done = remarks("Preparation of the laboratory curves", preparation_of(result)))
+    page.sections.push_back(*done);
   if (auto notes = remarks("Notes", list_of(result, "notes"))) page.sections.push_back(*notes);
   for (const Json& specimen : list_of(result, "specimens"))
     page.provenance.emplace_back("specimen " + text(specimen, "label") + ", SHA-256", text(specimen, "sha256"));

@@ -10,8 +10,7 @@ namespace app {
 
 nlohmann::ordered_json leave_as_it_is(const RunFolder& folder, Console& console) {
   if (!std::filesystem::exists(folder.file("report.html"))) write_report(folder.path());
-  std::error_code ignored;  // one of a run that was killed just before it took it away
-  std::filesystem::remove(folder.file("checkpoint.h5"), ignored);
+  folder.remove_checkpoints();  // of a run that was killed just before it took them away
   console.remark(fmt::format("{}: the run is finished and stays as it is; without --resume it starts anew",
                              folder.file("result.json").string()));
   std::ifstream in(folder.file("result.json"));

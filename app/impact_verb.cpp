@@ -31,7 +31,7 @@ struct ImpactOptions {
 /// Runs it from the checkpoint if that is wanted; a stop leaves a checkpoint and says how to go on.
 impact::ImpactResult run_or_stop(const ImpactOptions& options, const Invocation& invocation,
                                  const impact::Scene& scene, const RunFolder& folder, Console& console) {
-  const std::filesystem::path checkpoint = folder.file("checkpoint.h5");
+  const std::filesystem::path checkpoint = folder.checkpoint();
   const bool goes_on = options.resume && std::filesystem::exists(checkpoint);
   if (options.resume && !goes_on)
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew", checkpoint.string()));
@@ -108,7 +108,7 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
     leave_as_it_is(folder, console);
     return done;
   }
-  const bool goes_on = options.resume && std::filesystem::exists(folder.file("checkpoint.h5"));
+  const bool goes_on = options.resume && std::filesystem::exists(folder.checkpoint());
   const impact::ImpactResult found =
       folder.compute_anew({"curves.csv", "history.h5", "fragments.csv"}, goes_on,
                           [&] { return run_or_stop(options, invocation, scene, folder, console); });
@@ -125,8 +125,7 @@ int run_into_folder(const ImpactOptions& options, const Invocation& invocation, 
                             (folder.file("frames") / "elements.hdf.series").string()));
   console.say(fmt::format("wrote {} and report.html", folder.file("result.json").string()));
   console.result(result);
-  std::error_code ignored;  // a finished run needs none; one that stays does no harm
-  std::filesystem::remove(folder.file("checkpoint.h5"), ignored);
+  folder.remove_checkpoints();
   return done;
 }
 

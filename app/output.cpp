@@ -179,8 +179,13 @@ std::vector<std::filesystem::path> RunFolder::results_and_frames(const std::vect
 
 bool RunFolder::has_begun() const {
   std::error_code ignored;
-  return std::filesystem::exists(file("checkpoint.h5"), ignored) ||
-         std::filesystem::exists(file("frames"), ignored);
+  return std::filesystem::exists(checkpoint(), ignored) || std::filesystem::exists(file("frames"), ignored);
+}
+
+void RunFolder::remove_checkpoints() const noexcept {
+  std::error_code ignored;
+  std::filesystem::remove(checkpoint(), ignored);
+  std::filesystem::remove(half_speed_checkpoint(), ignored);
 }
 
 void RunFolder::remove_results(const std::vector<std::string>& others) const {

@@ -86,6 +86,12 @@ class RunFolder {
   /// RunError.
   void write(const nlohmann::ordered_json& result) const;
 
+  /// What is enough to go on, of the run itself and of a test's second one at half the speed.
+  std::filesystem::path checkpoint() const { return file("checkpoint.h5"); }
+  std::filesystem::path half_speed_checkpoint() const { return file("checkpoint_half_speed.h5"); }
+  /// A finished run needs none; one that stays does no harm.
+  void remove_checkpoints() const noexcept;
+
  private:
   bool is_input(const std::filesystem::path& file) const;
   /// result.json first: where it is, everything else is there too.

@@ -37,16 +37,6 @@ struct StudyOptions {
 
 study::Plan read_plan(const StudyOptions& options) { return study::make_plan(study::read_study(options.file)); }
 
-using Inputs = std::vector<dem::InputFile>;
-
-/// As they are now: call it when they have been read, for a study may run for days.
-Inputs inputs_of(const study::Plan& plan) {
-  Inputs inputs;
-  for (const std::filesystem::path& file : plan.study.inputs)
-    inputs.push_back({"", file, dem::sha256_of_file(file)});
-  return inputs;
-}
-
 int plan_study(const StudyOptions& options) {
   const study::Plan plan = read_plan(options);
   Console console(options.common);
@@ -132,29 +122,27 @@ void say_summary(Console& console, const Json& result) {
                             s["max"].get<double>(), 100 * s["spread_rel"].get<double>()));
 }
 
-RunFolder run_folder(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan,
-                     const Inputs& inputs) {
+RunFolder run_folder(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan) {
   RunFolder folder(options.output, invocation, options.common);
-  for (const dem::InputFile& input : inputs) folder.add_input(input);
+  for (const dem::InputFile& input : plan.study.inputs) folder.add_input(input);
   for (const study::SpecimenRecipe& recipe : plan.study.specimens) folder.add_seed(recipe.packing.seed);
   return folder;
 }
 
 /// Before a run that ends with a report makes a result, the report of an earlier one goes.
-void remove_earlier_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan,
-                           const Inputs& inputs) {
+void remove_earlier_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan) {
   const study::StudyFolder folder(options.output);
   if (!std::filesystem::is_directory(options.output) ||
       std::all_of(plan.tasks.begin(), plan.tasks.end(),
                   [&](const study::Task& task) { return folder.has_result(task.key); }))
     return;
-  run_folder(options, invocation, plan, inputs).remove_results({"rows.csv"});
+  run_folder(options, invocation, plan).remove_results({"rows.csv"});
 }
 
 /// result.json, rows.csv, run.json and report.html from the results in the folder.
 Json write_study_report(const StudyOptions& options, const Invocation& invocation, const study::Plan& plan,
-                        const Inputs& inputs, Console& console) {
-  const RunFolder folder = run_folder(options, invocation, plan, inputs);
+                        Console& console) {
+  const RunFolder folder = run_folder(options, invocation, plan);
   const study::RowTable table = study::read_rows(plan, study::StudyFolder(options.output));
   Json result = study::result_json(plan, table);
   result["orientation"] = study::orientation_json(plan, study::StudyFolder(options.output));
@@ -185,7 +173,6 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
   use_threads(options.common);
   dem::seconds_between_checkpoints(0);  // refused before an earlier report is removed
   const study::Plan plan = read_plan(options);
-  const Inputs inputs = inputs_of(plan);
   std::vector<std::size_t> chosen = study::choose_tasks(plan, options.tasks, "--tasks");
   if (!options.share.empty()) {
     const Share share = parse_share(options.share);
@@ -201,7 +188,7 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
   }
   // A part does not report: other parts may be running, and two must not write one file.
   const bool reports = options.tasks.empty() && options.share.empty();
-  if (reports) remove_earlier_report(options, invocation, plan, inputs);
+  if (reports) remove_earlier_report(options, invocation, plan);
   const study::RunOutcome outcome = run_or_stop(options, invocation, plan, chosen, console);
   console.say(fmt::format("{}: {} tasks, {} results made now, {} found, {} tasks failed", plan.study.name,
                           outcome.chosen, outcome.ran, outcome.results - std::min(outcome.results, outcome.ran),
@@ -212,7 +199,7 @@ int run_study(const StudyOptions& options, const Invocation& invocation) {
                         {"ran", outcome.ran},
                         {"failed", failures_json(plan, outcome.failures)}});
   } else {
-    console.result(write_study_report(options, invocation, plan, inputs, console));
+    console.result(write_study_report(options, invocation, plan, console));
   }
   throw_if_failed(plan, outcome);
   return done;
@@ -260,10 +247,9 @@ int status_of_study(const StudyOptions& options) {
 
 int report_study(const StudyOptions& options, const Invocation& invocation) {
   const study::Plan plan = read_plan(options);
-  const Inputs inputs = inputs_of(plan);
   require_study_folder(options.output);
   Console console(options.common);
-  console.result(write_study_report(options, invocation, plan, inputs, console));
+  console.result(write_study_report(options, invocation, plan, console));
   return done;
 }
 

@@ -15,6 +15,7 @@
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
 #include "libdem/core/units.h"
+#include "libdem/material/card_table.h"
 #include "libdem/run/checkpoint_interval.h"
 #include "specimens/specimen_file.h"
 #include "specimens/virtual_tests/catalogue.h"
@@ -81,12 +82,13 @@ struct Inputs {
 Inputs read_inputs(const TestCommand& command, const TestDescription& test,
                    const virtual_tests::TestOptions& options, const Invocation& invocation) {
   use_threads(command.common);
-  dem::MaterialCard card = dem::read_card(command.card);
+  const dem::TomlTable table = dem::TomlTable::read(command.card);
+  dem::MaterialCard card = dem::card_of(table);
   specimens::Specimen specimen = specimens::read_specimen(command.specimen);
   test.check(specimen, card, options);
   Inputs inputs{std::move(specimen), std::move(card), RunFolder(command.output, invocation, command.common)};
   inputs.folder.add_input(command.specimen);
-  inputs.folder.add_input(command.card);
+  inputs.folder.add_input({"card", command.card, table.sha256()});
   inputs.folder.add_seed(inputs.specimen.seed);
   return inputs;
 }
@@ -104,20 +106,28 @@ Json result_of(const TestDescription& test, const virtual_tests::TestOutcome& fo
   return result;
 }
 
+/// Keeps the state of a test in `file`, and goes on from there if that is wanted.
+virtual_tests::CheckpointPolicy kept_in(const std::filesystem::path& file, const TestCommand& command) {
+  return {
+      .file = file,
+      .seconds_between = dem::seconds_between_checkpoints(virtual_tests::CheckpointPolicy().seconds_between),
+      .resume = command.resume};
+}
+
 /// Runs it from the checkpoint if that is wanted; a stop leaves a checkpoint and says how to go on.
 virtual_tests::TestOutcome run_or_stop(const TestCommand& command, const Invocation& invocation,
                                        const Inputs& inputs, const virtual_tests::TestOptions& options,
                                        Console& console) {
-  const std::filesystem::path checkpoint = inputs.folder.file("checkpoint.h5");
+  const std::filesystem::path checkpoint = inputs.folder.checkpoint();
+  // What an earlier run at half the speed left must not be met by the second test of this one, hours later.
+  std::error_code ignored;
+  if (!command.resume) std::filesystem::remove(inputs.folder.half_speed_checkpoint(), ignored);
   if (command.resume && !std::filesystem::exists(checkpoint))
     console.remark(fmt::format("{}: there is nothing to go on from; starting anew", checkpoint.string()));
   try {
-    return virtual_tests::run_test(
-        inputs.specimen, inputs.card, options, console.progress(),
-        {.file = checkpoint,
-         .seconds_between = dem::seconds_between_checkpoints(virtual_tests::CheckpointPolicy().seconds_between),
-         .resume = command.resume,
-         .pictures = command.pictures});
+    virtual_tests::CheckpointPolicy policy = kept_in(checkpoint, command);
+    policy.pictures = command.pictures;
+    return virtual_tests::run_test(inputs.specimen, inputs.card, options, console.progress(), policy);
   } catch (const dem::Interrupted& stop) {
     // A static solve keeps none.
     if (!std::filesystem::exists(checkpoint)) throw;
@@ -126,13 +136,15 @@ virtual_tests::TestOutcome run_or_stop(const TestCommand& command, const Invocat
   }
 }
 
-/// A stop says how to go on: what the first test kept serves again.
-std::optional<virtual_tests::RateCheck> check_rate_or_stop(const Invocation& invocation, const Inputs& inputs,
+/// A stop leaves a checkpoint of its own and says how to go on: what the first test kept serves again, too.
+std::optional<virtual_tests::RateCheck> check_rate_or_stop(const TestCommand& command,
+                                                           const Invocation& invocation, const Inputs& inputs,
                                                            const virtual_tests::TestOptions& options,
                                                            const virtual_tests::TestOutcome& found,
                                                            Console& console) {
   try {
-    return virtual_tests::check_rate(inputs.specimen, inputs.card, options, found, console.progress());
+    return virtual_tests::check_rate(inputs.specimen, inputs.card, options, found, console.progress(),
+                                     kept_in(inputs.folder.half_speed_checkpoint(), command));
   } catch (const dem::Interrupted& stop) {
     throw dem::Interrupted(fmt::format("{} while the test ran once more at half the speed: go on with {}",
                                        stop.what(), command_to_go_on(invocation)));
@@ -194,7 +206,7 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
   say_what_came_out(test, found, inputs.card, console);
   Json result = result_of(test, found, command, inputs);
   if (command.rate_check) {
-    const auto check = check_rate_or_stop(invocation, inputs, options, found, console);
+    const auto check = check_rate_or_stop(command, invocation, inputs, options, found, console);
     if (check) {
       result["rate_check"] = {{"quantity", check->quantity},
                               {"velocity", check->velocity},
@@ -208,8 +220,7 @@ int run_test(const TestDescription& test, const TestCommand& command, const Invo
   write_report(inputs.folder.path());
   console.say(fmt::format("wrote {} and report.html", inputs.folder.file("result.json").string()));
   console.result(result);
-  std::error_code ignored;  // a finished test needs none; one that stays does no harm
-  std::filesystem::remove(inputs.folder.file("checkpoint.h5"), ignored);
+  inputs.folder.remove_checkpoints();
   return done;
 }
 

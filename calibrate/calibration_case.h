@@ -10,6 +10,7 @@
 #include "calibrate/lab/series.h"
 #include "calibrate/target.h"
 #include "libdem/config/toml_reader.h"
+#include "libdem/core/input_file.h"
 #include "libdem/core/vector.h"
 #include "libdem/drive/platens.h"
 #include "libdem/material/material_card.h"
@@ -58,9 +59,9 @@ struct CalibrationCase {
   double check_tolerance = 0.06;  ///< relative, of targets on specimens that the fit never saw
   std::optional<lab::Series> tension_series, compression_series;  ///< laboratory curves, if there are any
   std::optional<lab::LabCurve> tension_reference,
-      compression_reference;                  ///< a code's curve, to draw beside the result
-  std::vector<std::string> notes;             ///< what a reader of the card should know
-  std::vector<std::filesystem::path> inputs;  ///< every file that was read, for the provenance
+      compression_reference;           ///< a code's curve, to draw beside the result
+  std::vector<std::string> notes;      ///< what a reader of the card should know
+  std::vector<dem::InputFile> inputs;  ///< every file that was read, for the provenance
 
   const Target* target(Quantity quantity) const;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibrate/case_parts.h"
+#include "libdem/core/sha256.h"
 
 namespace calibrate {
 namespace {
@@ -112,8 +113,8 @@ std::optional<lab::Series> read_curves(const TomlTable& table, lab::Loading load
   lab::CurveOptions options;
   options.toe.enabled = table.boolean("toe_correction", true);
   options.check.may_end_at_peak = table.boolean("may_end_at_peak", loading == lab::Loading::tension);
-  for (const fs::path& file : spec.files) result.inputs.push_back(file);
   lab::Series series = lab::read_series(spec, options);
+  for (const fs::path& file : spec.files) result.inputs.push_back({"curve", file, dem::sha256_of_file(file)});
   for (const std::string& note : series.notes) result.notes.push_back(note);
   return series;
 }
@@ -229,8 +230,9 @@ const Target* CalibrationCase::target(Quantity quantity) const {
 }
 
 CalibrationCase read_case(const fs::path& file) {
-  CalibrationCase result = case_of(TomlTable::read(file));
-  result.inputs.insert(result.inputs.begin(), file);
+  const TomlTable table = TomlTable::read(file);
+  CalibrationCase result = case_of(table);
+  result.inputs.insert(result.inputs.begin(), {"case", file, table.sha256()});
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "calibrate/case_parts.h"
 #include "libdem/core/error.h"
+#include "libdem/core/sha256.h"
 #include "specimens/extract.h"
 #include "specimens/representative.h"
 #include "specimens/specimen_file.h"
@@ -101,7 +102,7 @@ void read_cuts(const TomlTable& table, CalibrationCase& result) {
     told_about(table, k < result.fit_centres.size() ? "fit_centres" : "check_centres", [&] {
       return specimens::extract(structure, result.packing.shape, all[k], result.packing.size);
     });
-  result.inputs.push_back(result.structure);
+  result.inputs.push_back({"specimen file", result.structure, dem::sha256_of_file(result.structure)});
 }
 
 void read_seeded(const TomlTable& table, CalibrationCase& result) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "libdem/material/card_table.h"
 #include "study/study_parts.h"
 
 namespace study {
@@ -26,12 +27,13 @@ void read_cards(const dem::TomlTable& root, Study& study) {
     if (text.empty() || !std::filesystem::is_regular_file(card.file, error))
       root.fail(key, fmt::format("there is no file \"{}\"", text),
                 "name cards that exist, relative to the study file");
-    card.card = dem::read_card(card.file);
+    const dem::TomlTable table = dem::TomlTable::read(card.file);
+    card.card = dem::card_of(table);
     for (const StudyCard& other : study.cards)
       if (other.name == card.name)
         root.fail(key, fmt::format("two cards are called \"{}\"", card.name),
                   "rows are told apart by the card's file name: rename one");
-    study.inputs.push_back(card.file);
+    study.inputs.push_back({"card", card.file, table.sha256()});
     study.cards.push_back(std::move(card));
   }
 }
@@ -51,8 +53,9 @@ std::vector<std::string> one_or_more_texts(const dem::TomlTable& table, const ch
 }
 
 Study read_study(const std::filesystem::path& file) {
-  Study study = study_of(dem::TomlTable::read(file));
-  study.inputs.insert(study.inputs.begin(), file);
+  const dem::TomlTable table = dem::TomlTable::read(file);
+  Study study = study_of(table);
+  study.inputs.insert(study.inputs.begin(), {"study", file, table.sha256()});
   return study;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libdem/config/toml_reader.h"
+#include "libdem/core/input_file.h"
 #include "libdem/core/units.h"
 #include "libdem/material/material_card.h"
 #include "specimens/packing.h"
@@ -61,10 +62,10 @@ struct Study {
   std::vector<SpecimenRecipe> specimens;  ///< at least one, none twice
   std::vector<Parameter> parameters;      ///< may be empty
   DesignKind design = DesignKind::factorial;
-  std::size_t points = 0;          ///< Sobol: N
-  bool sensitivity = false;        ///< Sobol: Saltelli's design A, B, AB_i of N (d + 2) points instead of N
-  std::vector<VirtualTest> tests;  ///< at least one
-  std::vector<std::filesystem::path> inputs;  ///< every file that was read, for the provenance
+  std::size_t points = 0;              ///< Sobol: N
+  bool sensitivity = false;            ///< Sobol: Saltelli's design A, B, AB_i of N (d + 2) points instead of N
+  std::vector<VirtualTest> tests;      ///< at least one
+  std::vector<dem::InputFile> inputs;  ///< every file that was read, for the provenance
 };
 
 /// Reads study.toml (docs/studies.md lists the keys), its cards, and the specimens that it takes from files.

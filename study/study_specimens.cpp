@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "libdem/core/sha256.h"
 #include "libdem/core/units.h"
 #include "specimens/representative.h"
 #include "specimens/specimen_file.h"
@@ -149,7 +150,7 @@ void add_files(const TomlTable& table, const std::string& group, Study& study) {
     recipe.packing.elements = specimen.elements();
     recipe.packing.seed = specimen.seed;
     recipe.sha256 = specimen.sha256();
-    study.inputs.push_back(recipe.file);
+    study.inputs.push_back({"specimen file", recipe.file, dem::sha256_of_file(recipe.file)});
     study.specimens.push_back(std::move(recipe));
   }
 }

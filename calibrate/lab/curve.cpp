@@ -63,11 +63,16 @@ bool is_length(std::string_view unit) {
   }
 }
 
+bool is_displacement(const CsvTable& table, std::size_t column, const CurveSpec& spec) {
+  const std::string unit = unit_of(table, column, spec.strain_unit);
+  return !unit.empty() && is_length(unit);
+}
+
 /// The factor of a strain column, which may be a displacement if a gauge length is known.
 double strain_column_factor(const CsvTable& table, std::size_t column, const CurveSpec& spec,
                             double gauge_length) {
   const std::string unit = unit_of(table, column, spec.strain_unit);
-  if (!unit.empty() && is_length(unit)) {
+  if (is_displacement(table, column, spec)) {
     if (!(gauge_length > 0))
       throw InputError(place(table, column), fmt::format("\"{}\" is a length, not a strain", unit),
                        "give the gauge length over which it was measured, as in gauge_length = \"100 mm\"");
@@ -172,6 +177,7 @@ LabCurve read_curve(const std::filesystem::path& file, const CurveSpec& spec) {
   const std::size_t strain = find_column(table, spec.strain_column);
   const std::size_t stress = find_column(table, spec.stress_column);
   const std::vector<std::size_t> rows = selected_rows(table, spec.only_rows);
+  bool displacement = is_displacement(table, strain, spec);
   const double strain_sign = sign_factor(spec.strain_sign.value_or(spec.sign), spec.loading);
 
   LabCurve curve;
@@ -188,7 +194,11 @@ LabCurve read_curve(const std::filesystem::path& file, const CurveSpec& spec) {
     const double length = spec.post_peak_gauge_length > 0 ? spec.post_peak_gauge_length : spec.gauge_length;
     curve.post_peak_strain =
         column_values(table, rows, after, strain_sign * strain_column_factor(table, after, spec, length));
+    displacement = displacement || is_displacement(table, after, spec);
   }
+  if (spec.gauge_length > 0 && !displacement)
+    curve.notes.push_back(fmt::format("gauge_length was not used: column \"{}\" holds a strain, no length",
+                                      table.columns[strain].name));
   for (const std::size_t row : rows) curve.row.push_back(table.line[row]);
   return curve;
 }

@@ -108,7 +108,7 @@ TestOutcome run_test(const specimens::Specimen& specimen, const dem::MaterialCar
 
 std::optional<RateCheck> check_rate(const specimens::Specimen& specimen, const dem::MaterialCard& card,
                                     const TestOptions& options, const TestOutcome& outcome,
-                                    const dem::ProgressCallback& progress) {
+                                    const dem::ProgressCallback& progress, const CheckpointPolicy& checkpoint) {
   if (!outcome.run || description_of(options).usual_rate == 0) return {};
   RateCheck check;
   check.velocity = 0.5 * outcome.run->velocity;
@@ -121,7 +121,7 @@ std::optional<RateCheck> check_rate(const specimens::Specimen& specimen, const d
           o.velocity = check.velocity;
       },
       slower);
-  const TestOutcome slow = run_test(specimen, card, slower, progress);
+  const TestOutcome slow = run_test(specimen, card, slower, progress, checkpoint);
   check.quantity = outcome.measured.front().first;
   check.value = slow.measured.front().second;
   check.change = check.value / outcome.measured.front().second - 1;

@@ -45,6 +45,7 @@ struct RateCheck {
 /// Runs the test once more at half the speed of `outcome`; nothing for a test without time steps.
 std::optional<RateCheck> check_rate(const specimens::Specimen& specimen, const dem::MaterialCard& card,
                                     const TestOptions& options, const TestOutcome& outcome,
-                                    const dem::ProgressCallback& progress = {});
+                                    const dem::ProgressCallback& progress = {},
+                                    const CheckpointPolicy& checkpoint = {});
 
 }  // namespace virtual_tests

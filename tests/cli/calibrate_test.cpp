@@ -69,7 +69,8 @@ TEST_F(Calibrate, ThePageHasTheNumbersAndComesAgainFromTheFiles) {
     write("tension" + std::to_string(k) + ".csv", csv);
   }
   write("case.toml",
-        replaced(good_case, "ft = \"3 MPa\"", "ft = \"3 MPa\"\n[tension]\ncurves = [\"tension*.csv\"]"));
+        replaced(good_case, "ft = \"3 MPa\"",
+                 "ft = \"3 MPa\"\n[tension]\ncurves = [\"tension*.csv\"]\ngauge_length = \"100 mm\""));
   const auto run = spall({"calibrate", "case.toml", "-o", "out", "--quiet"});
   ASSERT_TRUE(run.code == 0 || run.code == 4) << run.err;
   const auto result = json("out/result.json");
@@ -87,9 +88,10 @@ TEST_F(Calibrate, ThePageHasTheNumbersAndComesAgainFromTheFiles) {
     EXPECT_THAT(curves, HasSubstr(kind));
 
   const std::string page = read("out/report.html");
-  for (const char* words : {"Tensile strength", "3 MPa", "30 GPa", "On specimens that the fit never saw",
-                            "laboratory, lowest to highest", "seed 1, fitted", "seed 2, unseen", "Ks/Kn",
-                            "Path of the parameters", "Softening ζ", "held at this value by"})
+  for (const char* words :
+       {"Tensile strength", "3 MPa", "30 GPa", "On specimens that the fit never saw",
+        "laboratory, lowest to highest", "seed 1, fitted", "seed 2, unseen", "Ks/Kn", "Path of the parameters",
+        "Softening ζ", "held at this value by", "tension2.csv: gauge_length was not used"})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_LT(page.size(), 5000000u);
   std::filesystem::remove(folder / "out/report.html");

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <thread>
 
+#include "libdem/core/sha256.h"
 #include "tests/cli/command.h"
 
 using testing::HasSubstr;
@@ -73,6 +74,13 @@ TEST_F(Streams, LinksLeadOnAndDevicesStayDevices) {
   EXPECT_EQ(read("got"), read("there/real.toml"));
   EXPECT_THAT(refusal(1, {"specimen", "make", "--size", "0.36x0.2x0.2 m", "--elements", "1000", "-o", "pipe"}),
               HasSubstr("pipe: is a device or a pipe"));
+}
+
+TEST_F(Streams, ACardThroughAPipeIsKnownByWhatWasRead) {
+  make_specimen();
+  EXPECT_EQ(
+      shell("cat card.toml | \"$0\" test elastic --specimen s1.h5 --card /dev/stdin -o piped --quiet").code, 0);
+  EXPECT_THAT(read("piped/run.json"), HasSubstr(dem::sha256_of_file(folder / "card.toml")));
 }
 
 TEST_F(Streams, ARunDoesNotTakeThePlaceOfItsOwnInput) {

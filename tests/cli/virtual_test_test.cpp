@@ -284,7 +284,7 @@ TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
   }
 }
 
-TEST_F(VirtualTest, ASignalInTheRateCheckSaysHowToGoOn) {
+TEST_F(VirtualTest, ASignalInTheRateCheckCostsNothingOfEitherTest) {
   make_specimen();
   const pid_t child = start(test("compression", {"--threads", "1", "--rate-check"}));
   // Its curve is there when the first of the two tests is over.
@@ -295,6 +295,16 @@ TEST_F(VirtualTest, ASignalInTheRateCheckSaysHowToGoOn) {
   EXPECT_EQ(stopped.code, 3) << stopped.err;
   EXPECT_THAT(stopped.err, AllOf(HasSubstr("once more at half the speed: go on with "),
                                  HasSubstr("--threads 1 --rate-check --resume\n")));
+  EXPECT_THAT(files(), testing::Contains("out/checkpoint_half_speed.h5"));
+  // It is what the second test goes on from: in its place no other file will do.
+  const std::string kept = read("out/checkpoint_half_speed.h5");
+  write("out/checkpoint_half_speed.h5", "none");
+  const auto resume = test("compression", {"--threads", "1", "--rate-check", "--resume", "--quiet"});
+  EXPECT_THAT(refusal(2, resume), HasSubstr("checkpoint_half_speed.h5"));
+  write("out/checkpoint_half_speed.h5", kept);
+  EXPECT_EQ(spall(resume).code, 0);
+  EXPECT_TRUE(json("out/result.json").contains("rate_check"));
+  EXPECT_THAT(files(), Not(testing::Contains(HasSubstr("checkpoint"))));
 }
 
 TEST_F(VirtualTest, ResumeWithoutACheckpointSaysSoAndStartsAnew) {

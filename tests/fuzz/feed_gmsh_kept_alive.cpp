@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -17,6 +18,16 @@
 #include "tests/fuzz/scratch_folder.h"
 
 namespace {
+
+/// The fuzzer's alarm, which looks for what takes too long, breaks in on what waits.
+template <class Call>
+ssize_t uninterrupted(Call call) {
+  ssize_t result = 0;
+  do {
+    result = call();
+  } while (result < 0 && errno == EINTR);
+  return result;
+}
 
 class Server {
  public:
@@ -36,7 +47,9 @@ class Server {
   /// What the library found in the mesh; cut short if it failed or crashed.
   std::string read() {
     char answer = 0;
-    if (::write(requests[1], &answer, 1) != 1 || ::read(answers[0], &answer, 1) != 1) std::abort();
+    if (uninterrupted([&] { return ::write(requests[1], &answer, 1); }) != 1 ||
+        uninterrupted([&] { return ::read(answers[0], &answer, 1); }) != 1)
+      std::abort();
     const off_t size = ::lseek(found, 0, SEEK_END);
     std::string sent(static_cast<std::size_t>(size), '\0');
     if (::pread(found, sent.data(), sent.size(), 0) != size) std::abort();

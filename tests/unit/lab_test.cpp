@@ -209,8 +209,11 @@ TEST_F(LabFile, UnitsMayComeFromTheCaseAndADisplacementFromItsGaugeLength) {
   EXPECT_THAT(refusal(write(raw, "strain[%],stress[MPa]", 1e2), spec), HasSubstr("[%]"));
   lab::CurveSpec gauge;
   gauge.gauge_length = 0.1;
-  EXPECT_NEAR(lab::strain_at_peak(lab::prepare_curve(write(raw, "strain[mm],stress[MPa]", 100), gauge)),
-              peak_strain, 1e-5);
+  const lab::LabCurve from_displacement = lab::prepare_curve(write(raw, "strain[mm],stress[MPa]", 100), gauge);
+  EXPECT_NEAR(lab::strain_at_peak(from_displacement), peak_strain, 1e-5);
+  EXPECT_THAT(from_displacement.notes, Not(testing::Contains(HasSubstr("gauge_length"))));
+  EXPECT_THAT(lab::prepare_curve(write(raw, "strain[permil],stress[MPa]", 1e3), gauge).notes,
+              testing::Contains("gauge_length was not used: column \"strain\" holds a strain, no length"));
 }
 
 TEST_F(LabFile, WrongUnitsAndSignsAreRefusedWithAHint) {
