@@ -314,7 +314,8 @@ Json preparation_of(const Json& result) {
   Json all = Json::array();
   const Json laboratory = result.value("laboratory", Json::object());
   for (const auto& [test, lab] : laboratory.items())
-    for (const Json& note : list_of(lab, "preparation")) all.push_back(note);
+    for (const Json& note : list_of(lab, "preparation"))
+      if (note.is_string()) all.push_back("in " + note.get<std::string>());
   return all;
 }
 

@@ -91,7 +91,7 @@ TEST_F(Calibrate, ThePageHasTheNumbersAndComesAgainFromTheFiles) {
   for (const char* words :
        {"Tensile strength", "3 MPa", "30 GPa", "On specimens that the fit never saw",
         "laboratory, lowest to highest", "seed 1, fitted", "seed 2, unseen", "Ks/Kn", "Path of the parameters",
-        "Softening ζ", "held at this value by", "tension2.csv: gauge_length was not used"})
+        "Softening ζ", "held at this value by", "In tension2.csv: gauge_length was not used"})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_LT(page.size(), 5000000u);
   std::filesystem::remove(folder / "out/report.html");
