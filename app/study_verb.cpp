@@ -15,7 +15,6 @@
 #include "app/verbs.h"
 #include "libdem/core/atomic_file.h"
 #include "libdem/core/error.h"
-#include "libdem/core/sha256.h"
 #include "libdem/run/checkpoint_interval.h"
 #include "study/plan.h"
 #include "study/rows.h"

@@ -284,7 +284,7 @@ TEST_F(VirtualTest, ASignalEndsItWithExitCode3AndResumeGoesOnToTheSameBits) {
   }
 }
 
-TEST_F(VirtualTest, ASignalInTheRateCheckCostsNothingOfEitherTest) {
+TEST_F(VirtualTest, ASignalInTheRateCheckKeepsTheSecondTestsState) {
   make_specimen();
   const pid_t child = start(test("compression", {"--threads", "1", "--rate-check"}));
   // Its curve is there when the first of the two tests is over.
